@@ -15,10 +15,10 @@
 
 #include "design/generate_cfg.hpp"
 #include "design/text_edit.hpp"
+#include "feltgate/axis/params.hpp"
 #include "feltgate/crc32.hpp"
 #include "feltgate/current_control.hpp"
 #include "feltgate/current_sense.hpp"
-#include "feltgate/registers.hpp"
 
 namespace feltgate::design {
 
@@ -364,7 +364,7 @@ std::string memory_text(const Elaborated& e) {
   }
   std::string text = banner(e, "");
   for (const std::uint32_t word : words) {
-    text += fmt::format("{:x}{:08x}\n", check_of(word), word);
+    text += fmt::format("{:09x}\n", axis::ParamsMemory::checked(word));
   }
   return text;
 }

@@ -44,6 +44,7 @@ module axes_member #(
     // Results, as in feltgate_axes
     output logic        sample_o,
     output logic        measured_o,
+    output logic        duty_valid_o,
     output logic        last_o,
     output logic [31:0] tick_count_o,
     output logic        zeroed_o,
@@ -99,6 +100,7 @@ module axes_member #(
   assign testing_o      = safe.testing;
   assign sample_o       = tick.sample;
   assign measured_o     = tick.tau_hat;
+  assign duty_valid_o   = tick.duty;
   assign last_o         = tick.last;
   assign tick_count_o   = tick.count;
   assign position_o     = snapshot.position;

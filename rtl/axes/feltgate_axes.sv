@@ -49,8 +49,9 @@ module feltgate_axes #(
     output logic [ 8:0] event_number_o,
     output logic [31:0] event_value_o,
 
-    // Snapshots, in the last clock of a tick: all values belong to it
+    // Snapshots: with snapshot_valid_o high, all values belong to one tick, whose last clock is last_o
     output logic                                 snapshot_valid_o,
+    output logic                                 last_o,
     output logic [                         31:0] tick_count_o,
     output logic [             AxisCount*32-1:0] position_o,
     output logic [AxisCount*cfg::VELOCITY_W-1:0] velocity_o,
@@ -91,15 +92,21 @@ module feltgate_axes #(
     for (int k = 0; k < AxisCount; k++) reg_rdata_o = reg_rdata_o | rdata[k];
   end
 
-  // State of each axis for the others; of the tick's signals, which are in step, those of axis 0.
+  // State of each axis for the others. The axes are in step up to tau_hat: of these signals those of
+  // axis 0. A scene may take longer than that of another axis, so a snapshot waits for all duties.
   localparam int TorqueW = cfg::TORQUE_W;
-  logic [AxisCount-1:0] arm_requests, ready, testing, sample, measured, last;
+  logic [AxisCount-1:0] arm_requests, ready, testing, sample, measured, last, duty_valid, done_q;
   logic [31:0] tick_count[AxisCount];
   logic [AxisCount*TorqueW-1:0] law_torque;
   logic law_late, law_restart, unchecked, unfit;
-  assign snapshot_valid_o = last[0];
   assign measured_o       = measured[0];
+  assign last_o           = last[0];
   assign tick_count_o     = tick_count[0];
+  assign snapshot_valid_o = |duty_valid && &(done_q | duty_valid);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) done_q <= '0;
+    else         done_q <= last_o ? '0 : done_q | duty_valid;
+  end
 
   generate
   genvar n;
@@ -114,7 +121,8 @@ module feltgate_axes #(
         .arm_request_o(arm_requests[n]), .ready_o(ready[n]), .testing_o(testing[n]),
         .reg_addr_i({{2{!addressed[n]}}, reg_addr_i[9:0]}), .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i),
         .reg_busy_o(busy[n]), .reg_rdata_o(rdata[n]),
-        .sample_o(sample[n]), .measured_o(measured[n]), .last_o(last[n]), .tick_count_o(tick_count[n]), .zeroed_o(zeroed_o[n]),
+        .sample_o(sample[n]), .measured_o(measured[n]), .duty_valid_o(duty_valid[n]), .last_o(last[n]),
+        .tick_count_o(tick_count[n]), .zeroed_o(zeroed_o[n]),
         .position_o(position_o[32*n+:32]), .velocity_o(velocity_o[n*cfg::VELOCITY_W+:cfg::VELOCITY_W]),
         .tau_hat_o(tau_hat_o[n*TorqueW+:TorqueW]), .tau_ref_o(tau_ref_o[n*TorqueW+:TorqueW]),
         .current_ref_o(current_ref_o[n*cfg::CURRENT_W+:cfg::CURRENT_W]),
@@ -140,7 +148,7 @@ module feltgate_axes #(
     ) u_engine (
         .clk_i(clk_i), .rst_ni(rst_ni),
         .law_i(in_law), .arm_request_i(arm_requests), .armed_i(armed_o), .zeroed_i(zeroed_o),
-        .sample_i(sample[0]), .measured_i(measured_o), .last_i(snapshot_valid_o), .tick_count_i(tick_count_o),
+        .sample_i(sample[0]), .measured_i(measured_o), .last_i(last_o), .tick_count_i(tick_count_o),
         .position_i(position_o), .velocity_i(velocity), .tau_hat_i(tau_hat),
         .torque_o(law_torque), .late_o(law_late), .restart_o(law_restart),
         .unchecked_o(unchecked), .unfit_o(unfit),

@@ -47,7 +47,7 @@ module feltgate_linked #(
     output logic [ AxisCount*4-1:0] scene_o,
     output logic [   AxisCount-1:0] armed_o,
     output logic [   AxisCount-1:0] gates_enable_o,
-    output logic                    snapshot_valid_o  // last clock of a tick: all belong to it
+    output logic                    snapshot_valid_o  // all belong to one tick
 );
   localparam int FEATURES = (1 << feltgate_link_pkg::B_FEATURES_CAPTURE) |
                             (1 << feltgate_link_pkg::B_FEATURES_STREAM) |
@@ -61,7 +61,7 @@ module feltgate_linked #(
   logic [   AxisCount-1:0] word_valid;
   logic [ 6*AxisCount-1:0] word_place;
   logic [32*AxisCount-1:0] word_data;
-  logic        event_valid;
+  logic        last, event_valid;
   logic [ 8:0] event_number;
 
   // A repeated read must change nothing, so a write to the event's last word removes the event.
@@ -71,7 +71,7 @@ module feltgate_linked #(
       .ProgramContent(ProgramContent), .DataContent(DataContent), .TableContent(TableContent), .Reset(Reset)
   ) u_axes (
       .law_torque_i({(AxisCount*cfg::TORQUE_W){1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
-      .measured_o(), .zeroed_o(),
+      .measured_o(), .last_o(last), .zeroed_o(),
       .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
       .reg_read_i(reg_write && !reg_busy), .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),
       .event_valid_o(event_valid), .event_number_o(event_number), .event_value_o(),
@@ -150,7 +150,7 @@ module feltgate_linked #(
   if (AxisCount > 1) begin : g_view
     link_view #(.AxisCount(AxisCount)) u_link_view (
         .clk_i(clk_i), .rst_ni(rst_ni),
-        .word_valid_i(word_valid), .word_number_i(word_number), .word_data_i(word_data), .last_i(snapshot_valid_o),
+        .word_valid_i(word_valid), .word_number_i(word_number), .word_data_i(word_data), .last_i(last),
         .event_valid_i(event_valid), .event_number_i(event_number),
         .addr_i(link_addr), .wdata_i(link_wdata), .write_i(link_write), .rdata_o(view_rdata),
         .word_valid_o(view_valid), .word_number_o(view_number), .word_data_o(view_data),

@@ -118,7 +118,7 @@ module link_stream (
           index_q <= '0;
           left_q  <= words_q | ALWAYS;
           frame_q <= count_q;
-          if (begins) state_q <= Take;
+          if (begins) state_q <= last ? Head : Take;
         end
         Take: if (last) state_q <= Head;
         Head, Body: begin

@@ -100,8 +100,9 @@ class AxesEngine {
       all_ask &= cores[n].arm_request(each[n]);
       zeroed |= cores[n].zeroed();
     }
-    const bool shown = cores[0].out().snapshot_valid;
-    const bool check = shown && all_ask && !s.checked && !s.checks;
+    const bool last = cores[0].clock_of_tick() == D::clocks_per_tick - 1;
+    const bool sample = cores[0].clock_of_tick() == cores[0].sample_clock;
+    const bool check = last && all_ask && !s.checked && !s.checks;
     const bool addressed = is_engine(in.reg_addr);
 
     typename EngineOf::In to;
@@ -125,14 +126,14 @@ class AxesEngine {
     const typename EngineOf::Out before = runs_.clocked().peek(to);
     s.rdata = addressed ? before.rdata : 0;
     s.rdata_known = !addressed || before.rdata_known;
-    if (shown && !all_ask) {
+    if (last && !all_ask) {
       s.check_of_these = s.checked = false;
     } else {
       if (out_.crc_done && s.check_of_these) s.checked = true;
       if (check) s.check_of_these = true;
     }
     s.checks = check || (s.checks && !out_.crc_done);
-    s.sampled = s.runs == 0 && (s.sampled || to.tick);
+    s.sampled = s.runs == 0 && (s.sampled || sample);
     if ((law && !s.law) || (armed && !s.armed) || zeroed || out_.changed) {
       s.runs = 2;
     } else if (out_.fresh && s.runs != 0) {

@@ -96,7 +96,7 @@ class Device {
   /// Advances the core one clock; stretch() advances `clocks` clocks and notes every snapshot.
   virtual void step(const CoreIn& in) = 0;
   virtual void stretch(const CoreIn& in, Clock clocks) = 0;
-  void note(const CoreOut& snapshot) { reading_ = reading_of(design_, snapshot); }
+  void note(const CoreOut& snapshot) { read(design_, snapshot, reading_); }
 
  private:
   void write(int address, std::uint32_t data);

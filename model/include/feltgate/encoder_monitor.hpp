@@ -25,6 +25,12 @@ class EncoderMonitorLaw {
             std::uint32_t count = 0) {
     index_trips_ = index_wrong && !index_wrong_;
     index_wrong_ = index_wrong;
+    if (levels == levels_ && count == count_ && !chatters()) {  // no edge, and none is counted
+      moved_ = trips_ = false;
+      chatter_units_ = 0;
+      if (edge_units_ != Map::edge_units && whole(tick, edge_bits_)) ++edge_units_;
+      return;
+    }
     const unsigned changed = levels ^ levels_;
     const bool far = fast_ && ((count - count_ + 1) & 63u) > 2;
     const bool both = changed == 3;

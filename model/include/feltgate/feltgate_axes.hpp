@@ -33,13 +33,14 @@ class FeltgateAxes {
   void reset() {
     for (Core& core : cores_) core.reset();
     glue_.reset();
+    taken_ = {};
+    done_ = {};
     show({});
   }
 
   void clock(const In& in) {
-    const std::array<CoreIn, N> each = inputs(in);
-    glue_.clock(in, cores_, each);
-    for (std::size_t n = 0; n < N; ++n) cores_[n].clock(each[n]);
+    std::array<CoreIn, N> each = inputs(in);
+    clock_all(in, each);
     show(in);
   }
 
@@ -93,14 +94,28 @@ class FeltgateAxes {
       return false;
     }
     for (std::size_t n = 0; n < N; ++n) {
-      if (!cores_[n].calm(each[n], clocks)) return false;
+      if (!taken_[n].holds(each[n]) || !cores_[n].calm(each[n], clocks)) return false;
     }
     return true;
   }
 
  private:
   /// The clocks of a tick in which the cores take torques, and in which they have measured.
-  static constexpr int kTakes = Core::law_clock, kMeasured = Core::measured_clock;
+  static constexpr int kTakes = Core::sample_clock, kMeasured = Core::measured_clock;
+
+  /// What an axis takes with the position and holds for a tick, as in axes_member.sv.
+  struct Taken {
+    std::int32_t torque = 0;
+    bool late = false, waits = false;
+    /// An input changes nothing but the torque.
+    bool holds(const CoreIn& c) const { return c.law_late == late && c.axis_waits == waits; }
+    void give(CoreIn& c) const {
+      c.law_torque = torque;
+      c.law_late = late;
+      c.axis_waits = waits;
+    }
+    void take(const CoreIn& c) { *this = {c.law_torque, c.law_late, c.axis_waits}; }
+  };
 
   struct NoWatcher {
     void event(std::int64_t, int) {}
@@ -110,11 +125,30 @@ class FeltgateAxes {
   // Out of line, like pass(): flattened into an engine's advance() it takes a minute to compile and
   // is no faster.
   [[gnu::noinline]] void one_clock(const In& in, std::array<CoreIn, N>& each) {
+    clock_all(in, each);
+    for (std::size_t n = 0; n < N; ++n) out_.axis[n] = cores_[n].out();
+    show_snapshot();
+  }
+  void clock_all(const In& in, std::array<CoreIn, N>& each) {
     glue_.clock(in, cores_, each);
+    const bool takes = clock_of_tick() == kTakes, last = clock_of_tick() == D::clocks_per_tick - 1;
     for (std::size_t n = 0; n < N; ++n) {
+      const CoreIn now = each[n];
+      taken_[n].give(each[n]);
+      if (takes) taken_[n].take(now);
+      done_[n] = !last && (done_[n] || cores_[n].out().snapshot_valid);
       cores_[n].clock(each[n]);
-      out_.axis[n] = cores_[n].out();
     }
+  }
+  /// A snapshot waits for the duties of all axes.
+  void show_snapshot() {
+    bool any = false, all = true;
+    for (std::size_t n = 0; n < N; ++n) {
+      const bool valid = cores_[n].out().snapshot_valid;
+      any |= valid;
+      all &= valid || done_[n];
+    }
+    for (std::size_t n = 0; n < N; ++n) out_.axis[n].snapshot_valid = any && all;
   }
 
   /// Advances from event to event, at most to the end of the tick, towards clock `clocks` of run(),
@@ -133,12 +167,21 @@ class FeltgateAxes {
       }
       if (to == from) return 0;
     }
+    if (N > 1 && to - from != tick) return 0;
     if (!apart(each, to == tick)) return 0;
     const bool takes = from <= kTakes && kTakes < to;
     const bool measures = from <= kMeasured && kMeasured < to;
     if (measures && !glue_.may_tick(kMeasured - from)) return 0;
+    for (std::size_t n = 0; n < N; ++n) {
+      if (takes && !taken_[n].holds(each[n])) return 0;
+    }
     if (takes) glue_.torques(kTakes - from, each);
     for (std::size_t n = 0; n < N; ++n) {
+      if (takes) {
+        taken_[n].take(each[n]);
+      } else {
+        taken_[n].give(each[n]);
+      }
       cores_[n].run(each[n], to - from, [&, n] {
         out_.axis[n] = cores_[n].out();
         *snapshot = true;
@@ -212,11 +255,14 @@ class FeltgateAxes {
       out_.reg_rdata |= out_.axis[n].reg_rdata;
       out_.reg_busy |= addressed(n, in.reg_addr) && out_.axis[n].reg_busy;
     }
+    show_snapshot();
     glue_.show(in, out_);
   }
 
   std::array<Core, N> cores_;
   Glue glue_;
+  std::array<Taken, N> taken_{};
+  std::array<bool, N> done_{};  ///< its duty of this tick is there
   Out out_;
 };
 

@@ -42,16 +42,15 @@ class FeltgateCore {
   using In = CoreIn;
   using Out = CoreOut;
 
-  /// The clocks of a tick in which a program's torque is taken, and in which position, velocity and
-  /// tau_hat are new.
-  static constexpr int law_clock = axis::Axis::law_clock;
+  /// The clocks of a tick in which the position is sampled, and in which velocity and tau_hat are
+  /// new.
+  static constexpr int sample_clock = axis::TickCounter::sample_clock;
   static constexpr int measured_clock = axis::Axis::measured_clock;
 
   FeltgateCore() { reset(); }
 
   /// A clock with the reset. The parameter RAM keeps its words, as in the RTL.
-  void reset(const CoreIn& pins = {}) {
-    const Inputs in(pins);
+  void reset(const CoreIn& in = {}) {
     at_axis(in, [this](const auto& to_axis) { axis_.reset(to_axis); });
     encoder_.reset();
     bridge_.reset();
@@ -63,27 +62,45 @@ class FeltgateCore {
   }
 
   /// Advances one clock with these inputs.
-  void clock(const CoreIn& in) { clock(Inputs(in)); }
+  void clock(const CoreIn& in) {
+    using Words = axis::Words<std::int64_t>;  // as before this clock
+    const std::conditional_t<kWhole, const Words&, Words> p = axis_.words();
+    writes_ += axis_.writes();
+    if constexpr (D::heartbeat != 0) {
+      heartbeat_.clock(axis_.tick(), axis_.blocks().safety.latch.first);
+      out_.heartbeat = heartbeat_.out();
+    }
+    const axis::Axis::ToSockets to =
+        at_axis(in, [this](const auto& to_axis) { return axis_.clock(to_axis); });
+    const axis::Rotor rotor = encoder_.rotor();
+    encoder_.clock(in, to.encoder, p);
+    bridge_.clock(in, to.drive, p, rotor);
+    if constexpr (!kWhole) {
+      for (std::size_t g = 0; g < gate_clocks_.size(); ++g) {
+        gate_clocks_[g] += bridge_.gates() >> g & 1;
+      }
+    }
+    show(in);
+  }
 
   /// Advances `clocks` clocks with the inputs held; reg_write and set_zero must be low. Equals so
   /// many calls of clock(). `on_snapshot()` is called whenever out() holds a valid snapshot.
   template <class OnSnapshot>
   void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    const Inputs inputs(in);
     bool by_clock = true;
     while (clocks > 0) {
-      if (clocks >= D::clocks_per_tick && tick(inputs, on_snapshot)) {
+      if (clocks >= D::clocks_per_tick && tick(in, on_snapshot)) {
         clocks -= D::clocks_per_tick;
         by_clock = false;
         continue;
       }
       by_clock = true;
       do {
-        clock(inputs);
+        clock(in);
         if (out_.snapshot_valid) on_snapshot();
       } while (--clocks > 0 && clock_of_tick() != 0);
     }
-    if (!by_clock) show(inputs);
+    if (!by_clock) show_end();
   }
 
   /// Whether, with the inputs held, the next `clocks` clocks change neither the duty in force nor
@@ -106,9 +123,8 @@ class FeltgateCore {
     if constexpr (!kWhole) {
       return true;
     } else {
-      const Inputs inputs(in);
-      return !encoder_.calm(inputs.pins, axis_.encoder()) ||
-             at_axis(inputs, [this](const auto& to_axis) { return axis_.may_trip(to_axis); });
+      return !encoder_.calm(in, axis_.encoder()) ||
+             at_axis(in, [this](const auto& to_axis) { return axis_.may_trip(to_axis); });
     }
   }
 
@@ -123,7 +139,7 @@ class FeltgateCore {
   /// Between two ticks of the last one's.
   std::uint32_t word(int slot) const {
     if (!out_.snapshot_valid) return axis_.word(slot);
-    return at_axis(Inputs{CoreIn{}}, [&](const auto& to_axis) {
+    return at_axis(CoreIn{}, [&](const auto& to_axis) {
       return axis::Snapshot::at(slot, axis_.out(to_axis).snapshot);
     });
   }
@@ -158,9 +174,10 @@ class FeltgateCore {
   /// The next clock's number in its tick, 0 .. clocks_per_tick - 1.
   int clock_of_tick() const { return axis_.clock_of_tick(); }
 
+  const axis::Axis& axis() const { return axis_; }
   /// For comparisons: every output of the axis with these inputs.
   axis::Axis::Out axis_out(const CoreIn& in) const {
-    return at_axis(Inputs(in), [this](const auto& to_axis) { return axis_.out(to_axis); });
+    return at_axis(in, [this](const auto& to_axis) { return axis_.out(to_axis); });
   }
   /// Ticks that run() took as a whole, and those in which something happened.
   std::int64_t whole_ticks() const { return whole_; }
@@ -179,99 +196,81 @@ class FeltgateCore {
   static constexpr bool kWhole = std::is_same_v<EncoderSocket, axis::Quadrature> &&
                                  std::is_same_v<BridgeSocket, axis::HBridge>;
 
-  /// The inputs as sockets and axis take them.
-  struct Inputs {
-    explicit Inputs(const CoreIn& in)
-        : pins{in.encoder, in.encoder_data, in.hall, in.current_data, in.driver_fault},
-          panel{in.arm, in.stop, in.set_zero, in.scene},
-          law{in.law_torque, in.law_late, in.law_restart},
-          peers{in.axis_fault, in.axis_silent, in.axis_blocked, in.axis_testing, in.axis_waits},
-          port{in.reg_addr, in.reg_wdata, in.reg_write} {}
-    axis::Pins pins;
-    axis::Panel panel;
-    axis::Law<std::int64_t> law;
-    axis::Peers peers;
-    axis::RegisterPort port;
-  };
   template <class F>
-  auto at_axis(const Inputs& in, F&& f) const {
+  auto at_axis(const CoreIn& in, F&& f) const {
     const axis::Position& position = encoder_.out();
     const axis::Bridge& bridge = bridge_.out();
-    return f(axis::Axis::In{position, bridge, in.panel, in.law, in.peers, in.port});
+    return f(axis::Axis::In{position, bridge, in});
   }
   axis::Safe safe(const CoreIn& in) const {
-    return at_axis(Inputs(in), [this](const auto& to_axis) { return axis_.safe(to_axis); });
-  }
-
-  void clock(const Inputs& in) {
-    using Words = axis::Words<std::int64_t>;  // as before this clock
-    const std::conditional_t<kWhole, const Words&, Words> p = axis_.words();
-    writes_ += axis_.writes();
-    if constexpr (D::heartbeat != 0) {
-      heartbeat_.clock(axis_.tick(), axis_.blocks().safety.latch.first);
-      out_.heartbeat = heartbeat_.out();
-    }
-    const axis::Axis::ToSockets to =
-        at_axis(in, [this](const auto& to_axis) { return axis_.clock(to_axis); });
-    const axis::Rotor rotor = encoder_.rotor();
-    encoder_.clock(in.pins, to.encoder, p);
-    bridge_.clock(in.pins, to.drive, p, rotor);
-    if constexpr (!kWhole) {
-      for (std::size_t g = 0; g < gate_clocks_.size(); ++g) {
-        gate_clocks_[g] += bridge_.gates() >> g & 1;
-      }
-    }
-    show(in);
+    return at_axis(in, [this](const auto& to_axis) { return axis_.safe(to_axis); });
   }
 
   /// Takes a tick as a whole. False: nothing has changed.
   template <class OnSnapshot>
-  bool tick(const Inputs& in, OnSnapshot&& on_snapshot) {
+  bool tick(const CoreIn& in, OnSnapshot&& on_snapshot) {
     if constexpr (!kWhole) {
       return false;
     } else {
       using axis::TickCounter;
-      const axis::Position& now = encoder_.out();
-      const axis::Axis::In begin{now, bridge_.out(), in.panel, in.law, in.peers, in.port};
+      const axis::Axis::In begin{encoder_.out(), bridge_.out(), in};
       if (!axis_.ordinary(begin)) return false;
-      const EncoderSocket before = encoder_;
       const axis::Position* sampled =
-          encoder_.tick(in.pins, axis_.encoder(), TickCounter::sample_clock, D::clocks_per_tick);
-      const bool clear = axis_.gates_clear(begin);
-      axis::Drive drive = axis_.drive({}, clear, false);
-      if (sampled == nullptr ||
-          !axis_.tick({*sampled, bridge_.out(), in.panel, in.law, in.peers, in.port})) {
-        encoder_ = before;
+          encoder_.still(in.encoder)
+              ? encoder_.tick(axis_.blocks().ticks.count)
+              : encoder_.tick(in, axis_.encoder(), TickCounter::sample_clock, D::clocks_per_tick);
+      axis::Drive drive = axis_.drive({}, axis_.gates_clear(begin), false);
+      const axis::Position& position = sampled != nullptr ? *sampled : encoder_.out();
+      const axis::Axis::In to_axis{position, bridge_.out(), in};
+      axis::Values v;
+      if (sampled == nullptr || !axis_.tick(to_axis, v)) {
+        encoder_.undo();
         ++thrown_;
         return false;
       }
-      const axis::Axis::In to_axis{*sampled, bridge_.out(), in.panel, in.law, in.peers, in.port};
+      show_chain(v);
       const int duty_clock = axis_.duty_clock();
-      bridge_.run(drive, duty_clock);
-      show_tick(to_axis);
+      const bool still = bridge_.pass(drive, D::clocks_per_tick);
+      if (!still) {
+        bridge_.run(drive, duty_clock);
+        show_gates();
+      }
+      out_.snapshot_valid = true;
+      out_.word_valid = false;
+      if (ReadBack) {
+        out_.word_slot = Map::R::current_ref;
+        out_.word_data = static_cast<std::uint32_t>(out_.current_ref);
+      }
       on_snapshot();
       out_.snapshot_valid = false;
-      drive.duty = out_.duty;
-      bridge_.run(drive, D::clocks_per_tick - duty_clock);
-      axis_.end_tick(to_axis);
+      if (!still) {
+        drive.duty = out_.duty;
+        bridge_.run(drive, D::clocks_per_tick - duty_clock);
+        show_gates();
+      }
+      axis_.end_tick(to_axis, v, ReadBack);
       ++whole_;
       return true;
     }
   }
-
-  /// The outputs when the snapshot is valid.
-  void show_tick(const axis::Axis::In& in) {
-    show_chain(axis_.values(in, axis_.blocks().safety.levels(axis_.laws())));
-    out_.snapshot_valid = true;
-    out_.word_valid = false;
+  /// After such ticks: what has changed with the end of the last one.
+  void show_end() {
+    const axis::Axis::Blocks& q = axis_.blocks();
+    constexpr unsigned closed = 1U << Map::L::gates_closed;
+    out_.tick_count = q.ticks.count;
+    out_.scene = static_cast<std::uint8_t>(q.host.scene);
+    out_.armed = q.safety.arming.armed();
+    out_.gates_enable = q.safety.arming.open();
+    out_.limits =
+        static_cast<std::uint16_t>((out_.limits & ~closed) | (out_.gates_enable ? 0 : closed));
     if (ReadBack) {
-      out_.word_slot = Map::R::current_ref;
-      out_.word_data = static_cast<std::uint32_t>(out_.current_ref);
+      out_.reg_rdata = axis_.read_data();
+      out_.word_slot = Map::R::status;
+      out_.word_data = q.host.snapshot.word.data;
     }
-    show_gates();
   }
   /// The outputs after a clock.
-  void show(const Inputs& in) {
+  void show(const CoreIn& in) {
     const axis::Axis::Blocks& q = axis_.blocks();
     at_axis(in, [&](const auto& to_axis) {
       show_chain(axis_.values(to_axis, q.safety.levels(axis_.laws())));

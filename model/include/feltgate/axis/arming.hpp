@@ -54,6 +54,10 @@ class Arming {
       if (trip) open_ = false;
     }
   }
+  bool operator==(const Arming& o) const {
+    return host_ == o.host_ && host_counts_ == o.host_counts_ && panel_counts_ == o.panel_counts_ &&
+           stopped_ == o.stopped_ && waited_ == o.waited_ && armed_ == o.armed_ && open_ == o.open_;
+  }
   bool armed() const { return armed_; }
   bool open() const { return open_; }  ///< the gates are enabled
 

@@ -24,10 +24,7 @@ class Axis {
   struct In {
     const Position& position;
     const Bridge& bridge;
-    const Panel& panel;
-    const Law<std::int64_t>& law;
-    const Peers& peers;
-    const RegisterPort& port;
+    const Pins& pins;
   };
   /// What the sockets take.
   struct ToSockets {
@@ -60,10 +57,10 @@ class Axis {
     Host host;
   };
 
-  /// The clocks of a tick in which a program's torque is taken, and in which tau_hat is new.
+  static constexpr Bits scene_position{18};
+  /// The clocks of a tick in which velocity and tau_hat are new.
   static constexpr int velocity_clock =
       TickCounter::sample_clock + VelocityEstimator<Fixed>::latency;
-  static constexpr int law_clock = velocity_clock + Scene<Fixed>::summed;
   static constexpr int measured_clock = velocity_clock + Observer<Fixed>::latency;
 
   explicit Axis(const Design& d)
@@ -102,6 +99,7 @@ class Axis {
   }
 
   ToSockets clock(const In& in) {
+    rests_ = false;
     const Laws& laws = *laws_;
     const P& p = params_.p;
     const Tick tick = this->tick();
@@ -126,8 +124,9 @@ class Axis {
                                 q_.velocity.state.velocity);
     });
     q_.scene.clock(sums, [&] {
-      return laws.scene.tick(q_.scene.state, p, renders, scene, Fixed::saturate(q_.position, 18),
-                             q_.velocity.state.velocity, in.law);
+      return laws.scene.tick(q_.scene.state, p, renders, scene,
+                             Fixed::saturate(q_.position, scene_position),
+                             q_.velocity.state.velocity, law(in));
     });
     q_.ramp.clock(tick.scene, [&] {
       return laws.ramp.tick(q_.ramp.state, p,
@@ -140,11 +139,11 @@ class Axis {
                               q_.velocity.state.velocity);
     });
     const bool restart = q_.host.registers.restart(tick.last, scene) ||
-                         (tick.last && law_selected() && in.law.restart);
+                         (tick.last && law_selected() && in.pins.law_restart);
     if (restart) q_.ramp.state.ramping = true;
 
     q_.safety.clock(laws, p, to_safety);
-    q_.host.clock(params_, bank_, *formats_, tick, in.panel, in.port, safe, in.position, values);
+    q_.host.clock(params_, bank_, *formats_, tick, in.pins, safe, in.position, values);
     q_.ticks.clock(laws.clocks_per_tick);
     return to;
   }
@@ -156,72 +155,85 @@ class Axis {
   }
   /// A tick begins that tick() may take: nothing is written, nothing trips in every clock, and all
   /// words of the snapshot are there before its end.
-  bool ordinary(const In& in) const {
-    const bool cause = in.peers.fault || (law_selected() && in.law.late) || in.position.why != 0 ||
-                       in.bridge.why != 0;
-    return q_.ticks.at == 0 && q_.ticks.count != 0 && !in.bridge.measured && params_.whole &&
-           q_.host.registers.rests(in.port.write, in.panel.set_zero) && q_.host.snapshot.rests() &&
-           q_.safety.rests(in.panel.stop, cause) &&
+  [[gnu::always_inline]] bool ordinary(const In& in) const {
+    const bool open = q_.safety.arming.open();
+    return (rests_ ? in.pins.stop == stop_ : rests(in.pins.stop)) && !in.pins.reg_write &&
+           !in.pins.set_zero && !in.bridge.measured && in.position.why == 0 && in.bridge.why == 0 &&
+           !(open && (in.pins.axis_fault || (law_selected() && in.pins.law_late))) &&
            duty_clock() + Snapshot::words - Snapshot::early + 1 < laws_->clocks_per_tick;
   }
-  /// A tick as a whole but for its end, its inputs as in the sample's clock. If something trips in
-  /// it, nothing is changed: false.
-  bool tick(const In& in) {
+  /// A tick as a whole but for its end, its inputs as in the sample's clock; `v` is what the RTL
+  /// shows at its end. If something trips in it, nothing is changed: false.
+  [[gnu::always_inline]] bool tick(const In& in, Values& v) {
     const Laws& laws = *laws_;
-    const int number = q_.host.scene;
-    params_.load_scene(*formats_, number);
+    params_.load_scene(*formats_, q_.host.scene);
     const P& p = params_.p;
     const std::uint32_t count = q_.ticks.count;
-    const bool armed = q_.safety.arming.armed(), open = q_.safety.arming.open();
-    const bool tests = q_.safety.self_test.busy(armed);
-    const auto& last = q_.torque.state;
+    Safety& safety = q_.safety;
+    const bool armed = safety.arming.armed(), open = safety.arming.open();
+    const bool tests = safety.self_test.busy(armed), idle = safety.self_test.idle(armed);
+    const int mode = control().mode();
+    auto& torque = q_.torque.tick();
 
     // What can trip.
-    const auto heat = laws.heat.tick(p, last.voltage, q_.velocity.state.velocity);
-    std::int64_t heat_sum = q_.safety.heat_sum;
+    const auto heat = laws.heat.tick(p, torque.voltage, q_.velocity.state.velocity);
+    std::int64_t heat_sum = safety.heat_sum;
     const bool hot = laws.heat.heat(heat_sum, p, armed, heat.current);
     const auto travel = static_cast<std::int16_t>(in.position.travel);
     const auto speed = laws.velocity.tick(q_.velocity.state, p, q_.window.counts(travel));
-    const auto fast = laws.overspeed.tick(q_.safety.overspeed.state, p, speed.velocity);
+    const auto fast = laws.overspeed.tick(safety.overspeed.state, p, speed.velocity);
     const auto polarity =
-        laws.polarity.tick(q_.safety.polarity, p, open, speed.velocity, last.current);
-    SelfTest self_test = q_.safety.self_test;
-    self_test.sample(in.position.travel >> laws.self_test_drop);
-    self_test.start(p, armed, control().mode() == Map::mode_voltage, in.peers.waits, count);
-    q_.safety.watchdog.start(p);
-    if (hot || fast.too_fast || fast.jumped || polarity.trip || self_test.failed() ||
-        q_.safety.watchdog.trip(open)) {
+        laws.polarity.tick(safety.polarity, p, open, speed.velocity, torque.current);
+    safety.watchdog.start(p);
+    if (hot || fast.too_fast || fast.jumped || polarity.trip || safety.watchdog.trip(open)) {
       return false;
     }
+    const auto test = [&](SelfTest& t) {
+      t.sample(in.position.travel >> laws.self_test_drop);
+      t.start(p, armed, mode == Map::mode_voltage, in.pins.axis_waits, count);
+    };
+    if (!idle) {
+      SelfTest self_test = safety.self_test;
+      test(self_test);
+      if (self_test.failed()) return false;
+    }
 
-    sample(in, q_.safety.hold.derated);
+    sample(in, safety.hold.derated);
     q_.window.tick(line_.data(), laws.m1, travel);
     q_.velocity.tick() = speed;
+    safety.heat.tick() = heat;
+    safety.heat_sum = heat_sum;
+    safety.overspeed.tick() = fast;
+    safety.polarity = polarity.next;
     auto& observer = q_.observer.tick();
-    observer = laws.observer.tick(observer, p, armed, last.current, speed.velocity);
-    const bool renders = armed && !tests && !in.peers.testing;
+    observer = laws.observer.tick(observer, p, armed, torque.current, speed.velocity);
+    const bool renders = armed && !tests && !in.pins.axis_testing;
     auto& scene = q_.scene.tick();
-    scene = laws.scene.tick(scene, p, renders, number, Fixed::saturate(q_.position, 18),
-                            speed.velocity, in.law);
+    scene = laws.scene.tick(scene, p, renders, q_.host.scene,
+                            Fixed::saturate(q_.position, scene_position), speed.velocity, law(in));
     auto& ramp = q_.ramp.tick();
     ramp = laws.ramp.tick(ramp, p, to_ramp(in, scene.torque, renders, tests));
-    auto& torque = q_.torque.tick();
-    torque = laws.torque.tick(torque, p, armed, control().mode(), ramp.tau_ref, observer.tau_hat,
-                              speed.velocity);
-    q_.safety.heat.tick() = heat;
-    q_.safety.heat_sum = heat_sum;
-    q_.safety.overspeed.tick() = fast;
-    q_.safety.polarity = polarity.next;
-    q_.safety.self_test = self_test;
-    q_.safety.hold.tick(p, armed, count, ramp.tau_ref, in.position.moved);
+    torque =
+        laws.torque.tick(torque, p, armed, mode, ramp.tau_ref, observer.tau_hat, speed.velocity);
+    test(safety.self_test);
+    safety.hold.tick(p, armed, count, ramp.tau_ref, in.position.moved);
+    v = values(in, safety.levels(laws));
     return true;
   }
-  /// The end of this tick.
-  void end_tick(const In& in) {
-    q_.host.tick(bank_, in.port, laws_->clocks_per_tick, values(in, q_.safety.levels(*laws_)));
-    if (law_selected() && in.law.restart) q_.ramp.state.ramping = true;
-    q_.host.end_tick(in.panel);
-    q_.safety.end_tick(*laws_, to_safety(in, Tick{}));
+  /// The end of this tick. `reads`: the host may read its values.
+  [[gnu::always_inline]] void end_tick(const In& in, const Values& v, bool reads) {
+    q_.host.tick(bank_, laws_->clocks_per_tick, in.pins, v, reads);
+    if (law_selected() && in.pins.law_restart) q_.ramp.state.ramping = true;
+    const unsigned requests = (in.pins.arm ? 1U : 0U) | (in.pins.axis_silent ? 2U : 0U) |
+                              (in.pins.axis_blocked ? 4U : 0U);
+    if (rests_ && steady_ && requests == requests_) {
+      q_.safety.end_tick(q_.safety.arming.open());
+    } else {
+      steady_ = q_.safety.end_tick(*laws_, to_safety(in, Tick{}));
+      requests_ = requests;
+    }
+    rests_ = true;
+    stop_ = in.pins.stop;
     ++q_.ticks.count;
   }
   /// The gates may close before this tick ends, if the encoder rests. It may be true where nothing
@@ -237,19 +249,27 @@ class Axis {
 
   /// A clock with the reset. What has none: the parameters, the motor's heat, the stop latch.
   void reset(const In& in) {
+    rests_ = false;
     Blocks fresh;
     fresh.safety = q_.safety;
     fresh.host = q_.host;
-    fresh.safety.reset(in.panel.stop);
-    fresh.host.reset(params_, bank_, in.port, laws_->control_reset);
+    fresh.safety.reset(in.pins.stop);
+    fresh.host.reset(params_, bank_, in.pins, laws_->control_reset);
     q_ = fresh;
   }
 
   const Laws& laws() const { return *laws_; }
   const P& words() const { return params_.p; }
+  std::uint32_t parameter(int address) const { return params_.word(address); }
   /// Fault injection.
-  void flip(int address, int bit) { params_.flip(address, bit); }
-  void flip_control(int bit) { q_.host.registers.flip(bit); }
+  void flip(int address, int bit) {
+    params_.flip(address, bit);
+    rests_ = false;
+  }
+  void flip_control(int bit) {
+    q_.host.registers.flip(bit);
+    rests_ = false;
+  }
 
   /// The bridge's operands. The last two may change within a tick.
   Drive drive(const Tick& tick, bool gates_clear, bool clear) const {
@@ -267,7 +287,7 @@ class Axis {
     d.duty = static_cast<std::int16_t>(q_.torque.shown().duty);
     return d;
   }
-  bool gates_clear(const In& in) const { return q_.safety.stop.gates_clear(in.panel.stop); }
+  bool gates_clear(const In& in) const { return q_.safety.stop.gates_clear(in.pins.stop); }
   Encoder encoder(const Tick& tick, const Safe& safe) const {
     return {tick.sample, tick.count, control().filter(), control().encoder_polarity(),
             zeroed(),    safe.clear, safe.gates_enable};
@@ -283,14 +303,16 @@ class Axis {
   /// A write or a command is carried out in this clock.
   bool writes() const { return q_.ticks.last && q_.host.registers.busy(); }
   /// A word of the snapshot, of the running tick or between two ticks of the last one.
-  std::uint32_t word(int place) const { return q_.host.snapshot.at(bank_, q_.ticks.at == 0, place); }
+  std::uint32_t word(int place) const {
+    return q_.host.snapshot.at(bank_, q_.ticks.at == 0, place);
+  }
   std::uint32_t read_data() { return q_.host.read_data(params_, bank_); }
   const Blocks& blocks() const { return q_; }
   int clock_of_tick() const { return q_.ticks.at; }
   Control control() const { return q_.host.registers.control; }
 
   /// All values of the tick as the outputs have them.
-  Values values(const In& in, const Safe& safe) const {
+  [[gnu::always_inline]] Values values(const In& in, const Safe& safe) const {
     using L = Map::L;
     const auto& ramp = q_.ramp.shown();
     const auto& torque = q_.torque.shown();
@@ -318,18 +340,27 @@ class Axis {
   }
 
  private:
+  /// A tick begins, and no register is amid something.
+  bool rests(bool stop) const {
+    return q_.ticks.at == 0 && q_.ticks.count != 0 && params_.whole &&
+           q_.host.registers.rests(false, false) && q_.host.snapshot.rests() &&
+           q_.safety.rests(stop);
+  }
   Safety::In to_safety(const In& in, const Tick& tick) const {
     return {tick,
-            q_.host.commands(tick.last, in.panel),
+            q_.host.commands(tick.last),
             in.position,
             in.bridge,
-            in.peers,
+            in.pins,
             q_.host.params.word_error() || q_.host.registers.error(),
-            law_selected() && in.law.late,
+            law_selected() && in.pins.law_late,
             q_.velocity.shown().velocity,
             q_.ramp.shown().tau_ref,
             q_.torque.shown().current,
             q_.torque.shown().voltage};
+  }
+  static Law<std::int64_t> law(const In& in) {
+    return {in.pins.law_torque, in.pins.law_late, in.pins.law_restart};
   }
   bool law_selected() const {
     return q_.host.scene == Map::S::law && laws_->scene.has(Map::S::law);
@@ -337,7 +368,8 @@ class Axis {
   std::int64_t motor_current(const In& in) const {  // of the tick before
     return in.bridge.measured ? in.bridge.current : q_.torque.shown().current;
   }
-  Ramp<Fixed>::In to_ramp(const In& in, std::int64_t torque, bool armed, bool testing) const {
+  [[gnu::always_inline]] Ramp<Fixed>::In to_ramp(const In& in, std::int64_t torque, bool armed,
+                                                 bool testing) const {
     return {armed,
             q_.host.scene,
             in.position.chatters,
@@ -348,7 +380,7 @@ class Axis {
   void sample(const In& in, bool derated) {
     q_.position = in.position.position;
     q_.travel = static_cast<std::int16_t>(in.position.travel);
-    q_.testing = in.peers.testing;
+    q_.testing = in.pins.axis_testing;
     q_.limit_hold = derated;
   }
   std::shared_ptr<const Laws> laws_;
@@ -357,6 +389,10 @@ class Axis {
   ParamsMemory params_;
   Snapshot::Memory bank_{};
   Blocks q_;
+  // Since the last clock(): ticks as a whole with this level of the stop; and arming stays as it is
+  // with these requests.
+  bool rests_ = false, stop_ = false, steady_ = false;
+  unsigned requests_ = 0;
 };
 
 }  // namespace feltgate::axis

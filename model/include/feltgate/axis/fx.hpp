@@ -21,11 +21,13 @@ constexpr std::uint32_t low_bits(std::uint32_t x, int bits) {
   return bits >= 32 ? x : x & ((1U << bits) - 1);
 }
 
-/// A power of two by which a value is scaled: one of the two shifts is 0.
+/// A power of two by which a value is scaled: the factor is 1, or the shift 0.
 struct Exponent {
-  int left, right;
+  std::int64_t factor;
+  int right;
   Exponent(int exponent)  // NOLINT(google-explicit-constructor): it is a number
-      : left(exponent > 0 ? exponent : 0), right(exponent < 0 ? -exponent : 0) {}
+      : factor(exponent > 0 ? std::int64_t{1} << exponent : 1),
+        right(exponent < 0 ? -exponent : 0) {}
 };
 /// The lowest `drop` bits, at least one, are rounded away: `half` is added to them, and one more
 /// to half of an odd result where it is `to_even`.
@@ -40,29 +42,30 @@ struct Drop {
   }
 };
 
+/// The range of a signed format of so many bits.
+struct Bits {
+  std::int64_t least, most;
+  constexpr Bits(int bits)  // NOLINT(google-explicit-constructor): it is a number
+      : least(-(std::int64_t{1} << (bits - 1))), most(-(least + 1)) {}
+};
+
 struct Fixed {
   using T = std::int64_t;
   static constexpr bool is_fixed = true;
 
   /// y + x * 2^-drop, rounded.
   static T add_rounded(T y, T x, const Drop& d) {
-    return y + ((x + d.half + (d.to_even & (y + (x >> d.drop)))) >> d.drop);
+    if (d.to_even != 0) x += (y + (x >> d.drop)) & 1;
+    return y + ((x + d.half) >> d.drop);
   }
   /// x * 2^exponent, truncated.
-  static T scale(T x, const Exponent& e) {
-    return static_cast<T>(static_cast<std::uint64_t>(x) << e.left) >> e.right;
-  }
+  static T scale(T x, const Exponent& e) { return x * e.factor >> e.right; }
   /// x * 2^-drop, truncated, with the lowest bit set where a dropped bit was.
   static T scale_sticky(T x, int drop) {
     return (x >> drop) | ((x & ((T{1} << drop) - 1)) != 0 ? 1 : 0);
   }
-  /// x does not fit a signed format of so many bits.
-  static bool overflows(T x, int bits) { return saturate(x, bits) != x; }
   /// The nearest value of a signed format of so many bits.
-  static T saturate(T x, int bits) {
-    const T end = T{1} << (bits - 1);
-    return x < -end ? -end : x >= end ? end - 1 : x;
-  }
+  static T saturate(T x, const Bits& b) { return x < b.least ? b.least : x > b.most ? b.most : x; }
   /// |x| > limit.
   static bool beyond(T x, T limit) { return x > limit || x < -limit; }
   /// The nearest value in -limit .. limit.
@@ -84,8 +87,7 @@ struct Real {
   static T add_rounded(T y, T x, const Drop&) { return y + x; }
   static T scale(T x, const Exponent&) { return x; }
   static T scale_sticky(T x, int) { return x; }
-  static bool overflows(T, int) { return false; }
-  static T saturate(T x, int) { return x; }
+  static T saturate(T x, const Bits&) { return x; }
   static bool beyond(T x, T limit) { return x > limit || x < -limit; }
   static T limited(T x, T limit) { return x > limit ? limit : x < -limit ? -limit : x; }
   /// x * 2^(exponent - fraction): the value that Fixed has in a format with `fraction`.

@@ -26,6 +26,12 @@ class HBridge {
   void clock(const Pins&, const Drive& drive, const Words<std::int64_t>&, const Rotor&) {
     run(drive, 1);
   }
+  /// Whether nothing changes in the next `clocks` clocks; they are then passed.
+  bool pass(const Drive& d, int clocks) {
+    if (d.gates_clear || !gates_.quiet_for(clocks, d.gates_enable)) return false;
+    gates_.pass(clocks);
+    return true;
+  }
   /// Equals `clocks` calls of clock() with the inputs held.
   void run(const Drive& d, int clocks) {
     gates_.advance({d.gates_clear, d.gates_enable, d.pwm_mode, d.polarity, d.duty}, clocks);

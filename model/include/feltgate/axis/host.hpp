@@ -19,13 +19,11 @@ struct Host {
   int addr = 0, addr2 = 0;
   std::uint32_t rdata = 0;
 
-  Commands commands(bool last, const Panel& panel) const {
+  Commands commands(bool last) const {
     Commands c;
     c.host = registers.control.host();
     c.host_arm = registers.control.arm();
-    c.panel_arm = panel.arm;
     c.disarm = registers.disarm();
-    c.stop = panel.stop;
     c.host_stop = registers.stop();
     c.clear_faults = registers.command(last, Map::C::command_clear_faults);
     c.kick = registers.command(last, Map::C::command_kick);
@@ -33,8 +31,8 @@ struct Host {
     return c;
   }
   /// The chain's values with the words of status and faults.
-  void words(Values& v, const Safe& safe, const Position& position, const Bridge& bridge,
-             bool testing) const {
+  [[gnu::always_inline]] void words(Values& v, const Safe& safe, const Position& position,
+                                    const Bridge& bridge, bool testing) const {
     using C = Map::C;
     const auto bit = [](unsigned on, int place) { return on << place; };
     v.faults = bit(safe.faults, C::faults_seen) |
@@ -53,53 +51,51 @@ struct Host {
   }
 
   void clock(ParamsMemory& m, Snapshot::Memory& bank, const WordFormats& formats, const Tick& tick,
-             const Panel& panel, const RegisterPort& port, const Safe& safe,
-             const Position& position, const Values& values) {
+             const Pins& pins, const Safe& safe, const Position& position, const Values& values) {
     settle(m, bank);
     rdata = read();
     addr2 = addr;
-    addr = port.addr;
-    const Registers::In in = at_port(tick.last, panel, port, safe, position);
+    addr = pins.reg_addr;
+    const Registers::In in = at_port(tick.last, pins, safe, position);
     snapshot.clock(bank, tick.last, tick.tau_ref, tick.duty,
                    registers.command(tick.last, Map::C::command_freeze),
-                   registers.command(tick.last, Map::C::command_thaw), values, port.addr);
+                   registers.command(tick.last, Map::C::command_thaw), values, pins.reg_addr);
     params.clock(m, formats, tick.clock, scene, registers.write(tick.last, in.armed),
-                 registers.address(), registers.data(), port.addr);
-    if (tick.last) next_scene(panel);
+                 registers.address(), registers.data(), pins.reg_addr);
+    if (tick.last) next_scene(pins);
     registers.clock(formats, in);
   }
   /// A tick in which nothing is written but the snapshot. What the port reads in it waits.
-  void tick(Snapshot::Memory& bank, const RegisterPort& port, int clocks, const Values& values) {
-    params.tick(clocks);
-    snapshot.tick(bank, values);
-    addr = addr2 = port.addr;
+  /// `reads`: the host may read its values.
+  [[gnu::always_inline]] void tick(Snapshot::Memory& bank, int clocks, const Pins& pins,
+                                   const Values& values, bool reads) {
+    if (reads) snapshot.tick(bank, values);
+    addr = addr2 = pins.reg_addr;
     waits_ = true;
-  }
-  /// The end of this tick.
-  void end_tick(const Panel& panel) {
+    params.tick(clocks);
     snapshot.end_tick(true, false, false);
-    next_scene(panel);
+    next_scene(pins);
   }
   /// The word that the host reads.
   std::uint32_t read_data(const ParamsMemory& m, const Snapshot::Memory& bank) {
     settle(m, bank);
     return rdata;
   }
-  void reset(const ParamsMemory& m, const Snapshot::Memory& bank, const RegisterPort& port,
+  void reset(const ParamsMemory& m, const Snapshot::Memory& bank, const Pins& pins,
              std::uint32_t control_reset) {
     settle(m, bank);
     registers = {};
     registers.control.word = control_reset;
     params.reset();
-    params.read(m, port.addr);
+    params.read(m, pins.reg_addr);
     snapshot.reset();
-    snapshot.read(bank, port.addr);
+    snapshot.read(bank, pins.reg_addr);
     scene = addr = addr2 = 0;
     rdata = 0;
   }
-  Registers::In at_port(bool last, const Panel& panel, const RegisterPort& port, const Safe& safe,
+  Registers::In at_port(bool last, const Pins& pins, const Safe& safe,
                         const Position& position) const {
-    return {last, port, safe.armed || safe.locks, position.polarity_holds, panel.set_zero, scene};
+    return {last, pins, safe.armed || safe.locks, position.polarity_holds};
   }
 
  private:
@@ -110,8 +106,8 @@ struct Host {
     snapshot.settle(bank, addr);
     rdata = read();
   }
-  void next_scene(const Panel& panel) {
-    scene = registers.control.host() ? registers.control.scene() : panel.scene;
+  void next_scene(const Pins& pins) {
+    scene = registers.control.host() ? registers.control.scene() : pins.scene;
   }
   std::uint32_t read() const {
     if (addr2 >> 9 == 0) return params.read_data();

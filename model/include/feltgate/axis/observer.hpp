@@ -27,7 +27,8 @@ struct Observer {
         narrow(d["OBSERVER_F"] - d["TORQUE_F"], d.rounding()),
         w(d["TORQUE_W"]) {}
 
-  State tick(const State& s, const Words<T>& p, bool armed, T current, T velocity) const {
+  [[gnu::always_inline]] State tick(const State& s, const Words<T>& p, bool armed, T current,
+                                    T velocity) const {
     const T inertial = N::scale(velocity * p.inertia_gain, inertia);
     const T x = (armed ? N::scale(current * p.torque_constant, drive) : T{0}) + inertial;
     const T y = armed ? N::add_rounded(s.y, N::scale(x - s.y, difference) * p.observer_a1, a1) : x;
@@ -42,7 +43,7 @@ struct Observer {
 
   Exponent drive, inertia, difference;
   Drop a1, narrow;
-  int w;
+  Bits w;
 };
 
 }  // namespace feltgate::axis

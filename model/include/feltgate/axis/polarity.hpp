@@ -30,17 +30,18 @@ struct Polarity {
 
   /// In the clock after the velocity and the scene's torque are new; `current` is that of the tick
   /// before.
-  Judged tick(const State& s, const Words<T>& p, bool open, T velocity, T current) const {
-    const T now = N::truncated(velocity, drop), gained = N::wrapped(now - s.begin, w);
-    const bool grows = N::beyond(gained, p.polarity_speed) && (gained < 0) == (velocity < 0);
+  [[gnu::always_inline]] Judged tick(const State& s, const Words<T>& p, bool open, T velocity,
+                                     T current) const {
     const bool expired = static_cast<T>(s.ticks) >= p.polarity_ticks;
     const bool against =
         open && N::beyond(current, p.polarity_current) && (velocity < 0) != (current < 0);
     if (against && !expired) return {{s.begin, s.ticks + 1, s.grown}, false};
-    return {{now, 1, against && grows ? (s.grown << 1 | 1) & all : 0},
-            against && expired && grows && s.grown == all};
+    const T now = N::truncated(velocity, drop);
+    if (!against) return {{now, 1, 0}, false};
+    const T gained = N::wrapped(now - s.begin, w);
+    const bool grows = N::beyond(gained, p.polarity_speed) && (gained < 0) == (velocity < 0);
+    return {{now, 1, grows ? (s.grown << 1 | 1) & all : 0}, grows && s.grown == all};
   }
-
   /// The next tick may trip.
   bool near(const State& s, const Words<T>& p) const {
     return s.grown == all && static_cast<T>(s.ticks) >= p.polarity_ticks;

@@ -27,6 +27,7 @@ class Quadrature {
   void clock(const Pins& pins, const Encoder& e, const Words<std::int64_t>&) {
     if (e.sample) sample(e.tick_count);
     decoder_.clock(at(pins.encoder, e));
+    still_ = false;
     show();
     out_.trip_channel = e.sample && monitor_.trips();
     out_.trip_index = e.sample && monitor_.index_trips();
@@ -35,13 +36,28 @@ class Quadrature {
     decoder_.reset();
     monitor_ = EncoderMonitorLaw(edge_bits_, fast_);
     out_ = {};
+    still_ = false;
     show();
   }
 
+  /// In a tick as a whole with these pins nothing changes but the monitor.
+  bool still(const EncoderPins& pins) const { return still_ && pins == still_pins_; }
+  const Position* tick(std::uint32_t tick_count) {
+    monitor_before_ = monitor_;
+    moved_ = false;
+    sample(tick_count);
+    out_.moved = monitor_.moved();
+    out_.chatters = monitor_.chatters();
+    return monitor_.trips() || monitor_.index_trips() ? nullptr : &out_;
+  }
   /// A tick of `clocks` clocks as a whole, with these pins: the position that is sampled in it.
   /// Null where something out of the ordinary happens: a trip, an index, a wrong edge.
   const Position* tick(const Pins& pins, const Encoder& e, int sample_clock, int clocks) {
+    monitor_before_ = monitor_;
+    moved_ = true;
     const QuadDecoder::In in = at(pins.encoder, e);
+    decoder_before_ = decoder_;
+    still_ = false;
     int c = 0;
     while (c < sample_clock && !decoder_.settled(in)) {
       if (!edge(in)) return nullptr;
@@ -50,14 +66,24 @@ class Quadrature {
     sample(e.tick_count);
     if (monitor_.trips() || monitor_.index_trips()) return nullptr;
     show();
-    if (c == 0) return &out_;
     sampled_ = out_;
     while (c < clocks && !decoder_.settled(in)) {
       if (!edge(in)) return nullptr;
       ++c;
     }
     show();
+    still_pins_ = pins.encoder;
+    still_ = c < clocks;
     return &sampled_;
+  }
+  /// Takes a tick() back.
+  void undo() {
+    monitor_ = monitor_before_;
+    if (moved_) {
+      decoder_ = decoder_before_;
+      still_ = false;
+    }
+    show();
   }
   /// Ticks with these pins are as the last one, and do not trip.
   bool calm(const Pins& pins, const Encoder& e) const {
@@ -110,6 +136,11 @@ class Quadrature {
   bool fast_;
   EncoderMonitorLaw monitor_;
   Position out_, sampled_;
+  // Of the tick that may be taken back; and with these pins nothing moves but the monitor.
+  QuadDecoder decoder_before_ = decoder_;
+  EncoderMonitorLaw monitor_before_ = monitor_;
+  EncoderPins still_pins_;
+  bool still_ = false, moved_ = false;
 };
 
 }  // namespace feltgate::axis

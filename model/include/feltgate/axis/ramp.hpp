@@ -35,7 +35,7 @@ struct Ramp {
         coarse(d["TORQUE_F"] - d["RAMP_F"]),
         least(N::integer(1, 0, d["RAMP_F"])) {}
 
-  State tick(const State& s, const Words<T>& p, const In& in) const {
+  [[gnu::always_inline]] State tick(const State& s, const Words<T>& p, const In& in) const {
     State next = s;
     next.scene = in.scene;
     next.limit_hold = in.derated;
@@ -45,8 +45,8 @@ struct Ramp {
     T limit = p.torque_limit;
     if (in.derated) limit = std::min(limit, p.hold_limit);
     if (in.testing) limit = std::min(limit, p.self_test_torque);
-    next.limit_torque = in.armed && N::beyond(in.torque, limit);
-    const T target = N::scale(N::limited(in.torque, limit), fine);
+    const T limited = N::limited(in.torque, limit), target = N::scale(limited, fine);
+    next.limit_torque = in.armed && limited != in.torque;
     const T excess = s.ramp - target;
     const bool down = !(excess < 0), frozen = in.frozen && in.armed;
     const T step = in.frozen ? T{0} : p.ramp_step == 0 ? least : p.ramp_step;

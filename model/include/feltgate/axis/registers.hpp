@@ -10,22 +10,13 @@
 
 namespace feltgate::axis {
 
-/// The host's side of the port.
-struct RegisterPort {
-  int addr = 0;  ///< below 4096
-  std::uint32_t wdata = 0;
-  bool write = false;
-};
-
 class Registers {
  public:
   struct In {
     bool tick = false;
-    RegisterPort port;
+    const Pins& pins;
     bool armed = false;  ///< or armed from the next clock on
     bool polarity_holds = false;
-    bool set_zero = false;  ///< of the panel
-    int scene = 0;          ///< in force
   };
   Control control;
 
@@ -66,12 +57,13 @@ class Registers {
 
   void clock(const WordFormats& formats, const In& in) {
     using C = Map::C;
-    const bool at_parameter = in.port.addr >> 9 == 0, at_control = in.port.addr == C::control,
-               at_command = in.port.addr == C::command;
-    const auto wdata = [&in](int bit) { return (in.port.wdata >> bit & 1) != 0; };
+    const bool at_parameter = in.pins.reg_addr >> 9 == 0,
+               at_control = in.pins.reg_addr == C::control,
+               at_command = in.pins.reg_addr == C::command;
+    const auto wdata = [&in](int bit) { return (in.pins.reg_wdata >> bit & 1) != 0; };
     const bool disarms =
-        in.port.write && at_control && wdata(C::control_host) && !wdata(C::control_arm);
-    const bool stops = in.port.write && at_command && wdata(C::command_stop);
+        in.pins.reg_write && at_control && wdata(C::control_host) && !wdata(C::control_arm);
+    const bool stops = in.pins.reg_write && at_command && wdata(C::command_stop);
     if (in.tick && to_parameter_) refused_ = refuses(in.armed);
     if (in.tick && to_control_) {
       // Mode, polarities and filter hold while armed.
@@ -86,29 +78,29 @@ class Registers {
     if (in.tick && disarm_) {  // wins over a waiting write that arms
       control.word = (control.word | 1U << C::control_host) & ~(1U << C::control_arm);
     }
-    if (in.port.write && !busy()) {
+    if (in.pins.reg_write && !busy()) {
       to_parameter_ = at_parameter;
       to_control_ = at_control;
       to_command_ = at_command;
-      address_ = in.port.addr & 511;
-      data_ = fitted(formats, in.port);
-      if (at_parameter) saturated_ = data_ != in.port.wdata;
+      address_ = in.pins.reg_addr & 511;
+      data_ = fitted(formats, in.pins);
+      if (at_parameter) saturated_ = data_ != in.pins.reg_wdata;
     } else if (in.tick) {
       to_parameter_ = to_control_ = to_command_ = false;
     }
     disarm_ = disarms || (disarm_ && !in.tick);
     stop_ = stops || (stop_ && !in.tick);
-    zero_ = in.set_zero || (zero_ && !in.tick);
+    zero_ = in.pins.set_zero || (zero_ && !in.tick);
   }
 
  private:
   /// What is written, within its format.
-  static std::uint32_t fitted(const WordFormats& formats, const RegisterPort& port) {
-    if (port.addr >> 9 != 0) return port.wdata;
-    const WordFormats::Format& f = formats.at[static_cast<std::size_t>(port.addr)];
-    const bool top = port.wdata >> 31 != 0, negative = f.has_sign && top;
-    const bool misfit = ((negative ? ~port.wdata : port.wdata) & f.above) != 0;
-    return !misfit ? port.wdata : negative ? f.above : top ? 0 : ~f.above;
+  static std::uint32_t fitted(const WordFormats& formats, const Pins& in) {
+    if (in.reg_addr >> 9 != 0) return in.reg_wdata;
+    const WordFormats::Format& f = formats.at[static_cast<std::size_t>(in.reg_addr)];
+    const bool top = in.reg_wdata >> 31 != 0, negative = f.has_sign && top;
+    const bool misfit = ((negative ? ~in.reg_wdata : in.reg_wdata) & f.above) != 0;
+    return !misfit ? in.reg_wdata : negative ? f.above : top ? 0 : ~f.above;
   }
 
   bool to_parameter_ = false, to_control_ = false, to_command_ = false, zero_ = false,

@@ -44,7 +44,7 @@ struct Safety {
     Commands commands;
     const Position& position;
     const Bridge& bridge;
-    const Peers& peers;
+    const Pins& pins;
     bool word, engine;  ///< trips of the host's words and of a law
     std::int64_t velocity, tau_ref, current, voltage;
   };
@@ -80,7 +80,7 @@ struct Safety {
     trip(fault::word, in.word || in.position.trip_flip);
     trip(fault::jump, overspeed.at(0) && overspeed.state.jumped);
     trip(fault::engine, in.engine && open);
-    trip(fault::axis, in.peers.fault && open);
+    trip(fault::axis, in.pins.axis_fault && open);
     trip(fault::current, open && in.bridge.why != 0);
     return static_cast<std::uint16_t>(t);
   }
@@ -90,13 +90,13 @@ struct Safety {
     Arming::In a;
     a.host = in.commands.host;
     a.host_arm = in.commands.host_arm;
-    a.panel_arm = in.commands.panel_arm;
+    a.panel_arm = in.pins.arm;
     a.disarm = in.commands.disarm;
     a.fault = latch.first != 0;
     a.stopped = stop.stopped();
     a.kick_missing = laws.require_watchdog && !watchdog.awake();
-    a.wait = in.peers.silent || starts(in);
-    a.refuse = in.peers.blocked || unfit(in);
+    a.wait = in.pins.axis_silent || starts(in);
+    a.refuse = in.pins.axis_blocked || unfit(in);
     return a;
   }
   static bool starts(const In& in) {
@@ -107,7 +107,7 @@ struct Safety {
   }
 
   /// What the registers say, whatever the inputs.
-  Safe levels(const Laws& laws) const {
+  [[gnu::always_inline]] Safe levels(const Laws& laws) const {
     Safe s;
     s.armed = arming.armed();
     s.gates_enable = arming.open();
@@ -125,7 +125,7 @@ struct Safety {
     const Arming::In a = request(laws, in);
     Safe s = levels(laws);
     s.locks = arming.locks(a, laws.wait_ticks);
-    s.gates_clear = stop.gates_clear(in.commands.stop);
+    s.gates_clear = stop.gates_clear(in.pins.stop);
     s.clear = in.commands.clear_faults && !arming.request(a);
     s.arm_request = arming.counts(a) && !starts(in);
     s.ready = arming.ready(a) && !unfit(in);
@@ -155,13 +155,13 @@ struct Safety {
     if (after_scene) polarity = judged(laws, p, in).next;
     if (after_duty) hold.tick(p, armed, in.tick.count, in.tau_ref, in.position.moved);
     if (in.tick.duty) {
-      self_test.start(p, armed, direct(in), in.peers.waits, in.tick.count);
+      self_test.start(p, armed, direct(in), in.pins.axis_waits, in.tick.count);
       watchdog.start(p);
     }
     if (in.tick.sample) self_test.sample(travel(laws, in));
     if (in.tick.last) watchdog.tick(open, arms, in.commands.kick);
     ticks.clock(in.tick.last, in.bridge.period_start, laws.most_periods);
-    stop.clock(in.commands.stop, open, latch.first != 0);
+    stop.clock(in.pins.stop, open, latch.first != 0);
     latch.clock(clear, trips);
     arming.clock(in.tick.last, a, trips != 0, laws.wait_ticks);
     after_scene = in.tick.scene;
@@ -172,15 +172,20 @@ struct Safety {
     return heat_sum >= p.i2t_budget || Fixed::beyond(velocity, p.overspeed) ||
            laws.polarity.near(polarity, p) || watchdog.near(p);
   }
-  /// No cause stands that trips in every clock, and the stop latch stays as it is.
-  bool rests(bool stops, bool cause) const {
+  /// The stop latch stays as it is, and does not trip.
+  bool rests(bool stops) const {
     const bool open = arming.open();
-    return stop.rests(stops, open, latch.first != 0) && !(open && (cause || stop.stopped()));
+    return stop.rests(stops, open, latch.first != 0) && !stop.trip(open);
   }
-  /// The last clock of a tick without a trip and a command.
-  void end_tick(const Laws& laws, const In& in) {
-    const bool open = arming.open();
+  /// The last clock of a tick without a trip and a command; whether arming stays as it is while
+  /// the requests do.
+  bool end_tick(const Laws& laws, const In& in) {
+    const Arming before = arming;
     arming.clock(true, request(laws, in), false, laws.wait_ticks);
+    end_tick(before.open());
+    return arming == before;
+  }
+  void end_tick(bool open) {
     watchdog.tick(open, arming.armed(), false);
     errors.clock(true, false);
   }

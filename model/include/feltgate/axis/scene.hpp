@@ -63,8 +63,8 @@ struct Scene {
   /// The sum of a scene's terms, in its part's format.
   T rounded(T sum) const { return N::add_rounded(0, sum, guard); }
 
-  State tick(const State& s, const Words<T>& p, bool armed, int scene, std::int64_t position,
-             T velocity, const Law<T>& law) const {
+  [[gnu::always_inline]] State tick(const State& s, const Words<T>& p, bool armed, int scene,
+                                    std::int64_t position, T velocity, const Law<T>& law) const {
     State next{false, s.from_above, 0};
     if (!has(scene)) return next;
     // Reference minus position. Of a charge's centre the fraction is ignored.
@@ -131,7 +131,8 @@ struct Scene {
   }
 
   unsigned mask;
-  int part_f, part_w;
+  int part_f;
+  Bits part_w;
   bool sticky;
   Drop guard;
   int distance_f;

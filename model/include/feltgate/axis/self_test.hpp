@@ -14,6 +14,8 @@ class SelfTest {
  public:
   enum class Phase : std::uint8_t { done, wait, first, second, judge };
 
+  /// The scene runs: no test is under way, and none begins.
+  bool idle(bool armed) const { return armed && phase_ == Phase::done; }
   bool busy(bool armed) const { return armed && phase_ != Phase::done; }
   /// 1: forward, -1: backward, beyond every limit; 0: no pulse.
   int pulse() const { return phase_ == Phase::first ? 1 : phase_ == Phase::second ? -1 : 0; }
@@ -31,6 +33,15 @@ class SelfTest {
   template <class T>
   void start(const Words<T>& p, bool armed, bool direct, bool waits, std::uint32_t tick_count) {
     constexpr int answer = Map::self_test_counts, end = (1 << Map::self_test_count_bits) - 1;
+    const bool unit_now = (tick_count >> Map::self_test_unit_bits & 1) != 0;
+    const bool patience_now = (tick_count >> Map::self_test_patience_bits & 1) != 0;
+    if (idle(armed)) {
+      unit_ = unit_now;
+      patience_ = patience_now;
+      fail_ = late_ = false;
+      units_ = 0;
+      return;
+    }
     const unsigned step = (now_ - before_) & 3;
     const bool still = step == 0;
     // Counts since the first pulse began. Motion that begins only in the second does not count.
@@ -39,16 +50,7 @@ class SelfTest {
         (phase_ == Phase::first || (phase_ == Phase::second && net != 0))) {
       net += step == 3 ? -1 : 1;
     }
-    const bool unit_now = (tick_count >> Map::self_test_unit_bits & 1) != 0;
-    const bool patience_now = (tick_count >> Map::self_test_patience_bits & 1) != 0;
     const bool unit = unit_now != unit_, patience = patience_now != patience_;
-    if (armed && phase_ == Phase::done) {  // the scene runs
-      unit_ = unit_now;
-      patience_ = patience_now;
-      fail_ = late_ = false;
-      units_ = 0;
-      return;
-    }
     const bool quiet = units_ == end || static_cast<T>(units_) >= p.self_test_quiet;
     const bool over = units_ == end || static_cast<T>(units_) >= p.self_test_pulse;
     const bool gives_up = patience && late_, late = late_;

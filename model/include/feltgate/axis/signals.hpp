@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "feltgate/encoder_source.hpp"
+#include "feltgate/core_ports.hpp"
 #include "feltgate/generated/map.hpp"
 
 namespace feltgate::axis {
@@ -66,24 +66,9 @@ struct Rotor {
   std::uint32_t angle = 0;  ///< one that is known, 2^-32 electrical turn
 };
 
-/// All pins that a socket reads; each top has some of them.
-struct Pins {
-  EncoderPins encoder;
-  bool encoder_data = false;  ///< of an absolute encoder
-  unsigned hall = 0;          ///< bit n: line n
-  unsigned current_data = 0;  ///< bit n: of modulator n
-  bool driver_fault = false;
-};
-
-struct Panel {
-  bool arm = false, stop = false, set_zero = false;
-  int scene = 0;
-};
-
-/// From the other axes.
-struct Peers {
-  bool fault = false, silent = false, blocked = false, testing = false, waits = false;
-};
+/// All inputs of a chip: pins, of which each top has some, panel, register port, program, other
+/// axes.
+using Pins = CoreIn;
 
 /// The control word.
 struct Control {
@@ -100,10 +85,10 @@ struct Control {
   int filter() const { return static_cast<int>(word >> C::control_filter & 15); }
 };
 
-/// Of host and panel, to safety.
+/// Of the host, to safety.
 struct Commands {
-  bool host = false, host_arm = false, panel_arm = false, disarm = false, stop = false,
-       host_stop = false, clear_faults = false, kick = false;
+  bool host = false, host_arm = false, disarm = false, host_stop = false, clear_faults = false,
+       kick = false;
   int mode = 0;
 };
 

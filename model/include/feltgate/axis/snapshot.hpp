@@ -32,8 +32,21 @@ class Snapshot {
   }
   /// All words of a tick at once, before its last clock.
   void tick(Memory& m, const Values& v) {
+    using R = Map::R;
     std::uint32_t* const to = &m[place(bank_, 0)];
-    for (int n = 0; n < words; ++n) to[places[n]] = value(n, v);
+    const auto put = [to](int at, std::int64_t data) { to[at] = static_cast<std::uint32_t>(data); };
+    put(R::tick, v.tick);
+    put(R::position, v.position);
+    put(R::faults, v.faults);
+    put(R::encoder, v.encoder);
+    put(R::index, v.index);
+    put(R::velocity, v.velocity);
+    put(R::tau_hat, v.tau_hat);
+    put(R::tau_ref, v.tau_ref);
+    put(R::current_ref, v.current);
+    put(R::voltage, v.voltage);
+    put(R::duty, v.duty);
+    put(R::status, v.status);
     word = {false, places[words - 1], v.status};
     next_ = words;
     done_ = true;

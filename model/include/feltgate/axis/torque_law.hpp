@@ -36,8 +36,8 @@ struct TorqueLaw {
         voltage_w(d["VOLTAGE_W"]),
         emf_in_law(d["EMF_IN_LAW"] != 0) {}
 
-  State tick(const State& s, const Words<T>& p, bool armed, int mode, T tau_ref, T tau_hat,
-             T velocity) const {
+  [[gnu::always_inline]] State tick(const State& s, const Words<T>& p, bool armed, int mode,
+                                    T tau_ref, T tau_hat, T velocity) const {
     const bool closed = mode != Map::mode_open, direct = mode == Map::mode_voltage;
     State next;
     T asked = 0, offset = 0;
@@ -49,8 +49,9 @@ struct TorqueLaw {
       if (closed) asked += N::scale(tau_hat * p.observer_gain, observer_gain);
       offset = N::limited(N::scale(tau_ref * p.dead_voltage_slope, dead_slope), p.dead_voltage);
     }
-    next.limit_current = armed && N::beyond(asked, p.current_limit);
-    next.current = armed ? N::limited(asked, p.current_limit) : T{0};
+    const T limited = N::limited(asked, p.current_limit);
+    next.limit_current = armed && limited != asked;
+    next.current = armed ? limited : T{0};
 
     const T emf = N::scale(velocity * p.emf_constant, emf_constant);
     const bool high = N::beyond(tau_ref, p.region_torque);
@@ -60,13 +61,14 @@ struct TorqueLaw {
       offset +=
           N::scale(next.current * (high ? p.voltage_gain_high : p.voltage_gain), voltage_gain);
     }
-    next.limit_voltage = armed && N::beyond(offset, p.voltage_window);
-    const T applied = armed ? N::limited(offset, p.voltage_window) + emf : T{0};
+    const T within = N::limited(offset, p.voltage_window);
+    next.limit_voltage = armed && within != offset;
+    const T applied = armed ? within + emf : T{0};
     next.voltage = N::saturate(applied, voltage_w);
 
     const T duty = N::add_rounded(0, applied * p.duty_gain, duty_gain);
-    next.limit_duty = N::beyond(duty, p.duty_limit);
     next.duty = N::limited(duty, p.duty_limit);
+    next.limit_duty = next.duty != duty;
     return next;
   }
   template <class At>
@@ -88,7 +90,7 @@ struct TorqueLaw {
 
   Exponent voltage_to_current, torque_gain, observer_gain, dead_slope, emf_constant, voltage_gain;
   Drop duty_gain;
-  int voltage_w;
+  Bits voltage_w;
   bool emf_in_law;
 };
 

@@ -53,7 +53,7 @@ struct VelocityEstimator {
   T speed(std::int16_t counts) const {
     return N::integer(counts * std::int64_t{gain}, exponent, f);
   }
-  State tick(const State& s, const Words<T>& p, std::int16_t counts) const {
+  [[gnu::always_inline]] State tick(const State& s, const Words<T>& p, std::int16_t counts) const {
     const T speed = this->speed(counts), raw = N::saturate(speed, w);
     return {N::add_rounded(s.velocity, (raw - s.velocity) * p.velocity_a1, a1), raw != speed};
   }
@@ -63,7 +63,9 @@ struct VelocityEstimator {
     if (a.at(3)) to.velocity = from.velocity;
   }
 
-  int gain, exponent, w, f;
+  int gain, exponent;
+  Bits w;
+  int f;
   Drop a1;
 };
 

@@ -215,6 +215,8 @@ class FeltgateCore {
       using axis::TickCounter;
       const axis::Axis::In begin{encoder_.out(), bridge_.out(), in};
       if (!axis_.ordinary(begin)) return false;
+      // M/T counts the clocks from edge to edge.
+      if (axis_.laws().spans.used && !encoder_.calm(in, axis_.encoder())) return false;
       const axis::Position* sampled =
           encoder_.still(in.encoder)
               ? encoder_.tick(axis_.blocks().ticks.count)
@@ -222,8 +224,10 @@ class FeltgateCore {
       axis::Drive drive = axis_.drive({}, axis_.gates_clear(begin), false);
       const axis::Position& position = sampled != nullptr ? *sampled : encoder_.out();
       const axis::Axis::In to_axis{position, bridge_.out(), in};
+      // M/T counts the clocks from edge to edge.
+      const bool edges = sampled != &encoder_.out() && axis_.laws().spans.used;
       axis::Values v;
-      if (sampled == nullptr || !axis_.tick(to_axis, v)) {
+      if (sampled == nullptr || edges || !axis_.tick(to_axis, v)) {
         encoder_.undo();
         ++thrown_;
         return false;

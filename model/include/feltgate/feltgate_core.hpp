@@ -47,7 +47,8 @@ class FeltgateCore {
   static constexpr int sample_clock = axis::TickCounter::sample_clock;
   static constexpr int velocity_clock = axis::Axis::velocity_clock;
   static constexpr int measured_clock = axis::Axis::measured_clock;
-  static constexpr int law_duty_clock = axis::Axis::law_clock + 2 + axis::Axis::duty_after_scene;
+  static constexpr int law_duty_clock =
+      velocity_clock + axis::Scene<axis::Fixed>::usual_latency + axis::Axis::duty_after_scene;
 
   FeltgateCore() { reset(); }
 

@@ -25,11 +25,13 @@ module safety (
 );
   logic trip_errors, trip_speed, trip_jump, trip_polarity, trip_heat, trip_watchdog, trip_ticks, trip_stop, trip_test;
   logic awake, stopped, request, counts, able, starts, unfit;
+  /* verilator lint_off UNOPTFLAT */  // with several axes the others' `ready` goes into `locks` and nothing back; the struct hides that
   logic armed, locks, arms, gates_enable, gates_clear, clear, arm_request, ready, unkicked, derated, testing;
   logic signed [cfg::SCENE_TORQUE_W-1:0] test_torque;
   logic [1:0] test_result;
   logic [15:0] faults;
   logic [4:0] first_fault;
+  /* verilator lint_on UNOPTFLAT */
   logic signed [cfg::CURRENT_ESTIMATE_W-1:0] current_estimate;
   logic [15:0] trips;
 

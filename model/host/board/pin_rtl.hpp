@@ -51,7 +51,7 @@ class PinRtl : public Core {
       const bool tx = rtl_->uart_tx_o != 0;
       rtl_->uart_rx_i = line_.level();
       line_.clock(tx);
-      if (sensor_) rtl_->encoder_data_i = sensor_->pin(now_, rtl_->serial_o);
+      if (sensor_) set_encoder_data_i(*rtl_, sensor_->pin(now_, serial_lines<D>(*rtl_)), 0);
       // The stop was active since the last clock edge, and is not in the next clock.
       rtl_->stop_i = in.stop;
       rtl_.low();
@@ -80,15 +80,19 @@ class PinRtl : public Core {
 
  private:
   void drive(const BoardIn& in) {
+    unsigned a = 0, b = 0, z = 0;
     for (int n = 0; n < D::axes; ++n) {
       const EncoderPins& pins = in.encoder[static_cast<std::size_t>(n)];
-      set_bits(rtl_->enc_a_i, n, 1, pins.a);
-      set_bits(rtl_->enc_b_i, n, 1, pins.b);
-      set_bits(rtl_->enc_z_i, n, 1, pins.z);
+      a |= unsigned{pins.a} << n;
+      b |= unsigned{pins.b} << n;
+      z |= unsigned{pins.z} << n;
       set_bits(rtl_->scene_i, 4 * n, 4, in.scene);
     }
-    rtl_->current_data_i = in.current_data;
-    rtl_->hall_i = in.hall;
+    set_enc_a_i(*rtl_, a, 0);
+    set_enc_b_i(*rtl_, b, 0);
+    set_enc_z_i(*rtl_, z, 0);
+    set_current_data_i(*rtl_, in.current_data, 0);
+    set_hall_i(*rtl_, in.hall, 0);
     rtl_->arm_i = in.arm;
     rtl_->inputs_i = inputs_;
   }
@@ -96,7 +100,7 @@ class PinRtl : public Core {
   unsigned gates() const {
     return static_cast<unsigned>(rtl_->gate_a_hi_o | rtl_->gate_a_lo_o << 1 |
                                  rtl_->gate_b_hi_o << 2 | rtl_->gate_b_lo_o << 3 |
-                                 rtl_->gate_c_hi_o << 4 | rtl_->gate_c_lo_o << 5);
+                                 get_gate_c_hi_o(*rtl_, 0) << 4 | get_gate_c_lo_o(*rtl_, 0) << 5);
   }
 
   DesignInfo info_;

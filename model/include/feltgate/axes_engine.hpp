@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "feltgate/axes_ports.hpp"
+#include "feltgate/axis/axis.hpp"
 #include "feltgate/engine_runs.hpp"
 #include "feltgate/generated/map.hpp"
 
@@ -247,10 +248,11 @@ class AxesEngine {
   }
 
   using Runs = law::EngineRuns<N, D::f.torque.width()>;
-  // The core shows the snapshot one clock before its step.
-  static constexpr law::RunTiming kTiming{D::clocks_per_tick, Map::T::tau_hat - Map::T::sample,
-                                          Map::T::tau_hat - Map::T::velocity,
-                                          Map::T::snapshot - Map::T::tau_hat - 2};
+  using Clocks = axis::Axis;
+  static constexpr law::RunTiming kTiming{
+      D::clocks_per_tick, Clocks::measured_clock - axis::TickCounter::sample_clock - 1,
+      Clocks::measured_clock - Clocks::velocity_clock,
+      Clocks::first_duty_clock - Clocks::measured_clock - 2};
 
   Runs runs_{D::engine_max_age, kTiming};
   typename EngineOf::Out out_;

@@ -64,9 +64,8 @@ class Axis {
   static constexpr int velocity_clock =
       TickCounter::sample_clock + VelocityEstimator<Fixed>::latency;
   static constexpr int measured_clock = velocity_clock + Observer<Fixed>::latency;
-  /// The first clock of a tick in which the duty may be new.
-  static constexpr int first_duty_clock =
-      velocity_clock + Scene<Fixed>::shortest + Ramp<Fixed>::latency + TorqueLaw<Fixed>::latency;
+  /// From a scene's torque to the duty.
+  static constexpr int duty_after_scene = Ramp<Fixed>::latency + TorqueLaw<Fixed>::latency;
 
   explicit Axis(const Design& d)
       : laws_(std::make_shared<const Laws>(d)),
@@ -158,7 +157,7 @@ class Axis {
 
   /// The clock of a tick in which the duty is new.
   int duty_clock() const {
-    return first_duty_clock + laws_->scene.latency(q_.host.scene) - laws_->scene.shortest;
+    return velocity_clock + laws_->scene.latency(q_.host.scene) + duty_after_scene;
   }
   /// A tick begins that tick() may take: nothing is written, nothing trips in every clock, and all
   /// words of the snapshot are there before its end.

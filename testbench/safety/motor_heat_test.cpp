@@ -19,11 +19,11 @@ struct Twin : BlockTwin<ports::motor_heat> {
   }
   bool summed() const { return block.at(Law::summed); }
   void clock(const In& in) {
-    if (summed()) law.heat(sum, in.p, in.armed, block.shown.current);
+    if (summed()) law.heat(sum, in.p, in.armed, block.shown().current);
     block.clock(in.start, [&] { return law.tick(in.p, in.voltage, in.velocity); });
   }
   Out out(const In& in) const {
-    return {block.shown.current, summed() && sum >= std::int64_t{in.p.i2t_budget}};
+    return {block.shown().current, summed() && sum >= std::int64_t{in.p.i2t_budget}};
   }
   void reset(const In&) { block = {}; }  // the motor stays hot
 

@@ -9,12 +9,12 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "rig.hpp"
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "feltgate/largest.hpp"
 #include "random.hpp"
+#include "rig.hpp"
 
 namespace {
 

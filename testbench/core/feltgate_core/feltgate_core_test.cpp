@@ -153,9 +153,9 @@ TEST_CASE("core: sampled position to duty register in the clocks that the schedu
                            1u << D::C::control_arm |
                            static_cast<std::uint32_t>(D::S::spring_tension) << D::C::control_scene);
   for (int k = 0; k < 500; ++k) twin.clock(in);
-  constexpr int sample = feltgate::Map::first_wave_clock + feltgate::Map::T::sample;
+  constexpr int sample = feltgate::axis::TickCounter::sample_clock;
   while (twin.clock_of_tick() != sample + 1) twin.clock(in);
-  // The step is decoded in this tick and sampled by the next wave.
+  // The step is decoded in this tick and sampled by the next tick.
   for (int step = 0; step < 40; ++step) {
     in.encoder.b = (step & 1) == 0 ? !in.encoder.a : in.encoder.a;
     if ((step & 1) == 1) in.encoder.a = !in.encoder.a, in.encoder.b = in.encoder.a;
@@ -168,5 +168,5 @@ TEST_CASE("core: sampled position to duty register in the clocks that the schedu
     twin.clock(in);
     ++clocks;
   }
-  CHECK(clocks == feltgate::Map::T::duty + 1 - feltgate::Map::T::sample);
+  CHECK(clocks == feltgate::axis::Axis::first_duty_clock - sample);
 }

@@ -99,8 +99,8 @@ CoreOut read_axis(const Rtl& rtl, int n) {
   o.first_fault = static_cast<std::uint8_t>(word(rtl.first_fault_o, C::faults_first_width));
   o.tick_count = rtl.tick_count_o;
   o.snapshot_valid = rtl.snapshot_valid_o != 0;
-  o.word_valid = rtl.word_valid_o != 0;
-  o.word_slot = rtl.word_slot_o;
+  o.word_valid = word(rtl.word_valid_o, 1) != 0;
+  o.word_slot = static_cast<std::uint8_t>(word(rtl.word_slot_o, 6));
   o.word_data = word(rtl.word_data_o, 32);
   return o;
 }

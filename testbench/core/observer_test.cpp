@@ -13,7 +13,7 @@ struct Twin : TickTwin<ports::observer, Observer<Fixed>> {
     block.clock(in.start,
                 [&] { return law.tick(block.state, in.p, in.armed, in.current, in.velocity); });
   }
-  Out out(const In&) const { return {block.shown.tau_hat, block.shown.saturated, valid()}; }
+  Out out(const In&) const { return {block.shown().tau_hat, block.shown().saturated, valid()}; }
 };
 
 }  // namespace

@@ -16,18 +16,20 @@ struct Twin : TickTwin<ports::ramp, Ramp<Fixed>> {
     in.restart = in.restart && clock >= holds;
   }
   void clock(const In& in) {
-    if (in.sample) block.shown.limit_hold = in.derated;
+    if (in.sample) limit_hold = in.derated;
     block.clock(in.start, [&] {
       return law.tick(block.state, in.p,
                       {in.armed, in.scene, in.frozen, in.derated, in.testing, in.torque});
     });
-    if (in.start) block.shown.limit_torque = block.state.limit_torque;
+    if (in.start) block.showing().limit_torque = block.state.limit_torque;
     if (in.restart) block.state.ramping = true;
   }
   Out out(const In&) const {
-    const auto& s = block.shown;
-    return {s.tau_ref, s.limit_torque, s.limit_ramp, s.limit_hold, valid()};
+    const auto& s = block.shown();
+    return {s.tau_ref, s.limit_torque, s.limit_ramp, limit_hold, valid()};
   }
+
+  bool limit_hold = false;
 };
 
 }  // namespace

@@ -13,10 +13,12 @@ struct Twin : TickTwin<ports::velocity_estimator, VelocityEstimator<Fixed>> {
   void clock(const In& in) {
     block.clock(in.sample, [&] {
       const auto ticks = static_cast<int>(line.size());
-      return law.tick(block.state, in.p, window.tick(line.data(), ticks, in.travel));
+      const std::int16_t counts = window.counts(in.travel);
+      window.tick(line.data(), ticks, in.travel);
+      return law.tick(block.state, in.p, counts);
     });
   }
-  Out out(const In&) const { return {block.shown.velocity, block.shown.saturated, valid()}; }
+  Out out(const In&) const { return {block.shown().velocity, block.shown().saturated, valid()}; }
 
   TravelWindow window;
   std::vector<std::int16_t> line =

@@ -66,7 +66,8 @@ TEST_CASE("overspeed: above the limit, either way; no low-pass can jump, a flipp
   for (int k = 0; k < 20'000; ++k) {
     const std::int64_t a1 = random.between(0, 131'071),
                        raw = random.coin() ? most : random.between(-most, most);
-    velocity = Fixed::add_rounded(velocity, (raw - velocity) * a1, {design()["P_VELOCITY_A1_F"], Rounding::half_up});
+    velocity = Fixed::add_rounded(velocity, (raw - velocity) * a1,
+                                  {design()["P_VELOCITY_A1_F"], Rounding::half_up});
     s = law.tick(s, p, velocity);
     if (s.jumped) FAIL("a low-pass jumps, tick " << k);
   }

@@ -8,7 +8,7 @@ include_guard(GLOBAL)
 set(FELTGATE_MUTANTS 400 CACHE STRING "mutants of each block")
 set(FELTGATE_MUTANTS_SHARE 20 CACHE STRING "mutants that every test run tries of each")
 # Blocks of which these are tried; of the others with --whole.
-set(FELTGATE_MUTANT_BLOCKS dob limiter link_receiver ramp scene_wall sequencer velocity_jump)
+set(FELTGATE_MUTANT_BLOCKS arming link_receiver observer ramp registers scene torque_law)
 # Blocks whose children have mutants of their own: only their own cells and the children's pins change.
 set(FELTGATE_MUTANT_TOPS feltgate_core feltgate_linked axes_engine)
 set(FELTGATE_MUTANT_SEED 1 CACHE STRING "which mutants these are")

@@ -16,7 +16,7 @@ struct Twin : TickTwin<ports::ramp, Ramp<Fixed>> {
     in.restart = in.restart && clock >= holds;
   }
   void clock(const In& in) {
-    if (in.sample) hold = in.derated;
+    if (in.sample) limit_hold = in.derated;
     block.clock(in.start, [&] {
       return law.tick(block.state, in.p,
                       {in.armed, in.scene, in.frozen, in.derated, in.testing, in.torque});
@@ -26,10 +26,10 @@ struct Twin : TickTwin<ports::ramp, Ramp<Fixed>> {
   }
   Out out(const In&) const {
     const auto& s = block.shown();
-    return {s.tau_ref, s.limit_torque, s.limit_ramp, hold, valid()};
+    return {s.tau_ref, s.limit_torque, s.limit_ramp, limit_hold, valid()};
   }
 
-  bool hold = false;
+  bool limit_hold = false;
 };
 
 }  // namespace

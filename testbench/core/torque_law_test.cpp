@@ -16,7 +16,7 @@ struct Twin : TickTwin<ports::torque_law, TorqueLaw<Fixed>> {
   }
   Out out(const In&) const {
     const auto& s = block.shown();
-    return {s.current,       s.voltage,       any_value,    s.duty,
+    return {s.current,       s.voltage,       s.feed,       s.duty,
             s.limit_current, s.limit_voltage, s.limit_duty, valid()};
   }
 };

@@ -14,12 +14,13 @@ struct Twin : BlockTwin<ports::motor_heat> {
   static void strobes(In& in, int clock) { in.start = clock == 0; }
   /// Budgets near the sum.
   void legal(In& in, Random& random) {
-    in.measured = false;
     if (random.one_in(3)) in.p.i2t_budget = static_cast<std::uint32_t>(sum + random.between(-1, 1));
   }
   bool summed() const { return block.at(Law::summed); }
   void clock(const In& in) {
-    if (summed()) law.heat(sum, in.p, in.armed, block.shown().current);
+    if (summed())
+      law.heat(sum, in.p, in.armed,
+               in.measured ? law.measured(in.measured_current) : block.shown().current);
     block.clock(in.start, [&] { return law.tick(in.p, in.voltage, in.velocity); });
   }
   Out out(const In& in) const {

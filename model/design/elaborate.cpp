@@ -247,7 +247,7 @@ void check_widths(const Elaborated& e) {
     d.fail("formats.torque", "a charge pushes with up to 1 Nm", "use at least 0 integer bits");
   }
   if (d.mt) {
-    // The dividend of velocity_mt.sv: up to 8 half counts of each cycle, 26 bits of time stamps.
+    // The dividend of span_meter.sv: up to 8 half counts of each cycle, 26 bits of time stamps.
     const double half =
         std::ldexp(pi_over(4.0 * d.lines) * static_cast<double>(d.clock_hz), d.velocity.fraction);
     if (half * 8 * d.mt_cycles >= std::ldexp(1.0, 25 + d.velocity.width())) {

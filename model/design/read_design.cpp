@@ -190,7 +190,7 @@ void read_velocity(config::TomlReader& r, Design& d) {
       r.fail("cycles", fmt::format("{} cycles are no power of two", d.mt_cycles),
              "write 1, 2, 4 and so on, up to 128");
     }
-    // Bounds of velocity_mt.sv: its time stamps have 26 bits.
+    // Bounds of options/mt/span_meter.sv: its time stamps have 26 bits.
     if (d.mt_window_clocks() >= 1 << 21) {
       r.fail("window_s", "the window is 2^21 clocks or longer", "shorten it");
     }

@@ -92,8 +92,8 @@ function(feltgate_block_test block)
     get_filename_component(source "${source}" ABSOLUTE BASE_DIR "${FELTGATE_ROOT}")
     list(APPEND sources "${source}")
   endforeach()
-  # In a room of the core, or beside it: rtl/link and rtl/engine with their packages, rtl/bus, rtl/axes.
-  file(GLOB own "${FELTGATE_ROOT}/rtl/core/*/${block}.sv" "${FELTGATE_ROOT}/rtl/*/${block}.sv")
+  # rtl/link and rtl/engine have packages of their own.
+  file(GLOB own "${FELTGATE_ROOT}/rtl/*/${block}.sv")
   list(APPEND sources ${own})
   foreach(folder link engine)
     if(own MATCHES "/rtl/${folder}/")

@@ -7,18 +7,9 @@ include_guard(GLOBAL)
 
 set(extremes_folder "${FELTGATE_ROOT}/testbench/campaigns/extremes")
 feltgate_verilate(extremes_decoder quad_decoder
-  "${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/core/encoder/quad_decoder.sv"
+  "${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/core/quad_decoder.sv"
   -GResetPosition=2147483000)
 set(extremes_blocks extremes_decoder)
-foreach(mode "" _truncate _convergent)  # half up, floor, convergent
-  list(LENGTH extremes_blocks rounding)
-  math(EXPR rounding "${rounding} - 1")
-  list(APPEND extremes_blocks extremes_lowpass${mode})
-  feltgate_verilate(extremes_lowpass${mode} lowpass
-    "${FELTGATE_ROOT}/rtl/generated/paper/cfg.sv;${FELTGATE_ROOT}/rtl/core/estimators/lowpass.sv"
-    CLASS Vlowpass${mode} -GRounding=${rounding})
-endforeach()
-
 # An engine of one axis, as the design with one has it, and one of three.
 file(GLOB extremes_engine_parts CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/engine/*.sv")
 set(extremes_engine_sources "${FELTGATE_ROOT}/rtl/generated/lever_law/cfg.sv"
@@ -41,7 +32,6 @@ add_custom_command(OUTPUT "${extremes_wide}/cfg.sv" "${extremes_wide}/wide.hpp"
   COMMAND feltgate_generate "${FELTGATE_ROOT}" --design "${extremes_wide}/wide.toml" --output "${extremes_wide}"
   DEPENDS feltgate_generate "${point_design}" "${FELTGATE_ROOT}/rtl/designs/paper.toml"
           "${FELTGATE_ROOT}/scripts/exploration/design_text.py" "${FELTGATE_ROOT}/rtl/registers.toml"
-          "${FELTGATE_ROOT}/rtl/schedule.toml"
   COMMENT "Generating the design wide" VERBATIM)
 feltgate_verilate(extremes_wide_core feltgate_core
   "${extremes_wide}/cfg.sv;${FELTGATE_CORE_SOURCES}" CLASS Vextremes_wide FASTEST)

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "feltgate/feltgate_core.hpp"
+#include "feltgate/fixed.hpp"
 #include "rtl_model.hpp"
 #include "rtl_ports.hpp"
 

@@ -22,12 +22,6 @@ package cfg;
   localparam int SHORTEST_CLOCKS = 10;  // clocks, of a pulse at a gate
   localparam logic [15:0] SCENE_MASK = 16'h03fd;  // bit n: scene n is built
   localparam logic [14:0] CONTROL_RESET = 15'h0000;  // control word after reset
-  localparam int COEFFICIENT_BITS = 17;  // bits of a coefficient's mantissa, without its sign
-  localparam int PARALLEL_MULTIPLIERS = 0;  // 1: each block has its own
-  localparam int MULTIPLIER_A_BITS = 35;  // bits
-  localparam int MULTIPLIER_B_BITS = 18;  // bits
-  localparam int PRODUCT_BITS = 53;  // bits
-  localparam int TRAVEL_BITS = 16;  // bits
   localparam int SCENE_GUARD_BITS = 2;  // bits that a scene's terms keep below a torque step
   localparam int REQUIRE_WATCHDOG = 0;  // 1: arming waits for the first kick
   localparam int EMF_IN_LAW = 1;  // 1: the voltage law gives back the back-EMF
@@ -64,9 +58,8 @@ package cfg;
   localparam int ABSOLUTE_TABLE = 0;  // 1: readings are corrected by a table
   localparam int HALL = 0;  // 1: Hall lines give the electrical angle at power-up
   localparam int PHASES = 3;  // legs of the bridge: 2 of one motor current, 3 of three
-  localparam int MODULATION = 1;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'h55097303;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h7c770aec;  // by which a host knows the design
   localparam int TICK_W = 6;  // bits of a clock's number in the tick
   localparam int FEED_W = 23;  // bits of the voltage that no current takes
   localparam int POSITION_W = 32;  // [1,31,0]

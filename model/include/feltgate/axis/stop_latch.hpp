@@ -13,8 +13,10 @@ class StopLatch {
   bool gates_clear(bool stop) const { return stop || latch_; }
   bool stopped() const { return stop_; }
   bool trip(bool open) const { return stop_ && open; }
+  /// The pin sets the latch without a clock.
+  void see(bool stop) { latch_ = latch_ || stop; }
   void clock(bool stop, bool open, bool fault) {
-    latch_ = latch_ || stop;  // before the edge
+    see(stop);
     const bool releases = !stop && stop_ && !open && !fault;
     stop_ = before_;
     before_ = latch_;

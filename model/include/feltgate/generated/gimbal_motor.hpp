@@ -34,12 +34,6 @@ struct GimbalMotor {
   static constexpr int shortest_clocks = 10;  // clocks, of a pulse at a gate
   static constexpr int scene_mask = 1021;  // bit n: scene n is built
   static constexpr int control_reset = 0;  // control word after reset
-  static constexpr int coefficient_bits = 17;  // bits of a coefficient's mantissa, without its sign
-  static constexpr int parallel_multipliers = 0;  // 1: each block has its own
-  static constexpr int multiplier_a_bits = 35;  // bits
-  static constexpr int multiplier_b_bits = 18;  // bits
-  static constexpr int product_bits = 53;  // bits
-  static constexpr int travel_bits = 16;  // bits
   static constexpr int scene_guard_bits = 2;  // bits that a scene's terms keep below a torque step
   static constexpr int require_watchdog = 0;  // 1: arming waits for the first kick
   static constexpr int emf_in_law = 1;  // 1: the voltage law gives back the back-EMF
@@ -76,10 +70,9 @@ struct GimbalMotor {
   static constexpr int absolute_table = 0;  // 1: readings are corrected by a table
   static constexpr int hall = 0;  // 1: Hall lines give the electrical angle at power-up
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
-  static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0x55097303;  // by which a host knows the design
-  static constexpr std::uint32_t file_sum = 0x8387ac87;  // by which a program notices that the file has changed
+  static constexpr std::uint32_t design_crc = 0x7c770aec;  // by which a host knows the design
+  static constexpr std::uint32_t file_sum = 0x73639efa;  // by which a program notices that the file has changed
 
   /// Formats of the parameters.
   struct P {
@@ -301,12 +294,6 @@ struct GimbalMotor {
       {"SHORTEST_CLOCKS", 10},
       {"SCENE_MASK", 1021},
       {"CONTROL_RESET", 0},
-      {"COEFFICIENT_BITS", 17},
-      {"PARALLEL_MULTIPLIERS", 0},
-      {"MULTIPLIER_A_BITS", 35},
-      {"MULTIPLIER_B_BITS", 18},
-      {"PRODUCT_BITS", 53},
-      {"TRAVEL_BITS", 16},
       {"SCENE_GUARD_BITS", 2},
       {"REQUIRE_WATCHDOG", 0},
       {"EMF_IN_LAW", 1},
@@ -343,9 +330,8 @@ struct GimbalMotor {
       {"ABSOLUTE_TABLE", 0},
       {"HALL", 0},
       {"PHASES", 3},
-      {"MODULATION", 1},
       {"ROUNDING", 0},
-      {"DESIGN_CRC", 1426682627},
+      {"DESIGN_CRC", 2088176364},
       {"TICK_W", 6},
       {"FEED_W", 23},
       {"POSITION_W", 32},
@@ -440,105 +426,6 @@ struct GimbalMotor {
       {"P_WALL_STIFFNESS_F", 26},
       {"P_WALL_DAMPING_F", 24},
   };
-
-  /// All of it as text, for axis::Design::read().
-  static constexpr const char* text = R"(CLOCK_HZ 50000000 CLOCKS_PER_TICK 50 M1 384 VELOCITY_SHIFT 0
-VELOCITY_GAIN 0 VELOCITY_GAIN_F 17 INDEX_COUNTS 0 PWM_PERIOD 1000
-DEAD_CLOCKS 25 SHORTEST_CLOCKS 10 SCENE_MASK 1021 CONTROL_RESET 0
-COEFFICIENT_BITS 17 PARALLEL_MULTIPLIERS 0 MULTIPLIER_A_BITS 35 MULTIPLIER_B_BITS 18
-PRODUCT_BITS 53 TRAVEL_BITS 16 SCENE_GUARD_BITS 2 REQUIRE_WATCHDOG 0
-EMF_IN_LAW 1 I2T_START 947200000 AXES 1 ENGINE 0
-ENGINE_MAX_AGE 0 MT_COUNTS 0 MT_WINDOW 0 MT_DOUBLINGS 0
-EDGE_UNIT_BITS 6 FAST_EDGES 0 SELF_TEST_DROP 0 CURRENT_LOOP 0
-CURRENT_DROP 0 CURRENT_PROPORTIONAL 0 CURRENT_INTEGRAL 0 CURRENT_RESISTANCE 0
-CURRENT_MARGIN 0 CURRENT_OVERCURRENT 0 CURRENT_STROBE 0 FEED_GAIN 0
-FEED_DROP 0 DRIVER_FAULT 0 HEARTBEAT 0 ABSOLUTE_ENCODER 1
-ABSOLUTE_FRAMING 1 ABSOLUTE_BITS 14 ABSOLUTE_HALF_CLOCKS 5 ABSOLUTE_GAP_CLOCKS 20
-ABSOLUTE_PERIOD 96 ABSOLUTE_JUMP_STEP 28 ABSOLUTE_DIAGNOSIS 0 ABSOLUTE_TABLE 0
-HALL 0 PHASES 3 MODULATION 1 ROUNDING 0
-POSITION_W 32 POSITION_F 0 SCENE_POSITION_W 18 SCENE_POSITION_F 0
-SCENE_OFFSET_W 26 SCENE_OFFSET_F 8 SCENE_DISTANCE_W 27 SCENE_DISTANCE_F 8
-SCENE_PART_W 26 SCENE_PART_F 20 SCENE_TORQUE_W 26 SCENE_TORQUE_F 18
-TRAVEL_DIFFERENCE_W 16 TRAVEL_DIFFERENCE_F 0 VELOCITY_RAW_W 16 VELOCITY_RAW_F 0
-VELOCITY_W 32 VELOCITY_F 21 VELOCITY_DIFFERENCE_W 33 VELOCITY_DIFFERENCE_F 21
-INERTIA_TORQUE_W 35 INERTIA_TORQUE_F 30 DRIVE_TORQUE_W 30 DRIVE_TORQUE_F 30
-OBSERVER_W 36 OBSERVER_F 30 OBSERVER_DIFFERENCE_W 35 OBSERVER_DIFFERENCE_F 28
-OBSERVED_W 37 OBSERVED_F 30 TORQUE_W 21 TORQUE_F 18
-RAMP_W 27 RAMP_F 24 CURRENT_W 22 CURRENT_F 18
-CURRENT_PART_W 26 CURRENT_PART_F 18 CURRENT_SUM_W 27 CURRENT_SUM_F 18
-VOLTAGE_W 20 VOLTAGE_F 16 VOLTAGE_PART_W 26 VOLTAGE_PART_F 16
-VOLTAGE_SUM_W 28 VOLTAGE_SUM_F 16 EMF_W 23 EMF_F 16
-APPLIED_W 24 APPLIED_F 16 DUTY_W 13 DUTY_F 0
-DUTY_SUM_W 18 DUTY_SUM_F 0 LIMITER_W 22 LIMITER_F 0
-WITH_ADDEND_W 25 WITH_ADDEND_F 0 LIMITER_INPUT_W 28 LIMITER_INPUT_F 0
-CURRENT_ESTIMATE_PART_W 16 CURRENT_ESTIMATE_PART_F 11 CURRENT_ESTIMATE_W 17 CURRENT_ESTIMATE_F 11
-CURRENT_SQUARED_W 19 CURRENT_SQUARED_F 8 I2T_W 32 I2T_F 8
-CHARGE_W 32 CHARGE_F 16 P_VELOCITY_A1_F 27 P_INVERSE_RESISTANCE_F 18
-P_EMF_OVER_RESISTANCE_F 23 P_TORQUE_CONSTANT_F 21 P_INERTIA_GAIN_F 23 P_OBSERVER_A1_F 27
-P_EMF_CONSTANT_F 21 P_OBSERVER_GAIN_F 17 P_VOLTAGE_TO_CURRENT_F 18 P_TORQUE_GAIN_F 12
-P_DEAD_VOLTAGE_SLOPE_F 10 P_VOLTAGE_GAIN_F 15 P_VOLTAGE_GAIN_HIGH_F 15 P_DUTY_GAIN_F 8
-P_COMPRESSION_STIFFNESS_F 31 P_TENSION_STIFFNESS_F 31 P_DAMPER_DAMPING_F 25 P_ATTRACT_CORE_SLOPE_F 30
-P_REPEL_CORE_SLOPE_F 30 P_WALL_STIFFNESS_F 26 P_WALL_DAMPING_F 24
-word velocity_a1 4 17 0 27 67092
-word inverse_resistance 5 17 0 18 90394
-word emf_over_resistance 7 17 0 23 112812
-word torque_constant 8 17 0 21 122683
-word inertia_gain 9 17 0 23 83886
-word nominal_current_squared 17 32 0 8 92
-word observer_a1 15 17 0 27 67092
-word overspeed 16 31 0 21 209715200
-word i2t_budget 18 32 0 8 1894400000
-word polarity_speed 19 31 0 21 6291456
-word polarity_current 20 21 0 18 78643
-word polarity_ticks 21 16 0 0 6000
-word emf_constant 22 17 0 21 81789
-word observer_gain 23 18 1 17 0
-word voltage_setpoint 31 20 1 16 0
-word voltage_step 32 19 0 16 157
-word torque_limit 24 20 0 18 13107
-word ramp_step 25 26 0 24 8
-word voltage_to_current 27 17 0 18 90394
-word torque_gain 28 17 0 12 70017
-word dead_voltage_slope 29 17 0 10 104304
-word region_torque 30 20 0 18 13107
-word hold_torque 36 20 0 18 6554
-word hold_time 43 14 0 0 4883
-word hold_limit 56 20 0 18 3277
-word current_limit 33 21 0 18 224133
-word voltage_gain 34 17 0 15 95027
-word voltage_gain_high 50 17 0 15 95027
-word dead_voltage 35 19 0 16 13351
-word voltage_window 39 19 0 16 184400
-word duty_gain 40 17 0 8 88681
-word duty_limit 45 12 0 0 930
-word watchdog_ticks 46 24 0 0 100000
-word self_test_torque 51 20 0 18 2097
-word self_test_quiet 37 8 0 0 157
-word self_test_pulse 38 8 0 0 39
-word self_test_arms 41 2 0 0 2
-word commutation_gain 26 32 0 32 2883584
-word commutation_offset 13 32 0 32 0
-word setpoint_torque 74 21 1 18 0
-word membrane_lower 97 26 1 8 333772
-word membrane_upper 98 26 1 8 467281
-word membrane_torque 106 20 0 18 10486
-word compression_contact 129 26 1 8 333772
-word compression_stiffness 130 17 0 31 82355
-word tension_rest 161 26 1 8 0
-word tension_stiffness 162 17 0 31 41177
-word damper_damping 202 17 0 25 100663
-word attract_centre 225 26 1 8 0
-word attract_strength 226 32 0 16 891230556
-word attract_core 230 18 0 0 521
-word attract_core_slope 227 17 0 30 102944
-word repel_centre 257 26 1 8 0
-word repel_strength 258 32 0 16 891230556
-word repel_core 262 18 0 0 521
-word repel_core_slope 259 17 0 30 102944
-word wall_contact 289 26 1 8 333772
-word wall_stiffness 290 17 0 26 7721
-word wall_damping 298 17 0 24 5033
-)";
 };
 
 }  // namespace feltgate

@@ -34,12 +34,6 @@ struct LeverLaw {
   static constexpr int shortest_clocks = 10;  // clocks, of a pulse at a gate
   static constexpr int scene_mask = 1029;  // bit n: scene n is built
   static constexpr int control_reset = 0;  // control word after reset
-  static constexpr int coefficient_bits = 17;  // bits of a coefficient's mantissa, without its sign
-  static constexpr int parallel_multipliers = 0;  // 1: each block has its own
-  static constexpr int multiplier_a_bits = 35;  // bits
-  static constexpr int multiplier_b_bits = 18;  // bits
-  static constexpr int product_bits = 53;  // bits
-  static constexpr int travel_bits = 16;  // bits
   static constexpr int scene_guard_bits = 2;  // bits that a scene's terms keep below a torque step
   static constexpr int require_watchdog = 0;  // 1: arming waits for the first kick
   static constexpr int emf_in_law = 1;  // 1: the voltage law gives back the back-EMF
@@ -76,10 +70,9 @@ struct LeverLaw {
   static constexpr int absolute_table = 0;  // 1: readings are corrected by a table
   static constexpr int hall = 0;  // 1: Hall lines give the electrical angle at power-up
   static constexpr int phases = 2;  // legs of the bridge: 2 of one motor current, 3 of three
-  static constexpr int modulation = 0;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0x3d797cf8;  // by which a host knows the design
-  static constexpr std::uint32_t file_sum = 0xf0801e4b;  // by which a program notices that the file has changed
+  static constexpr std::uint32_t design_crc = 0x9daf39a6;  // by which a host knows the design
+  static constexpr std::uint32_t file_sum = 0x9456b971;  // by which a program notices that the file has changed
 
   /// Formats of the parameters.
   struct P {
@@ -295,12 +288,6 @@ struct LeverLaw {
       {"SHORTEST_CLOCKS", 10},
       {"SCENE_MASK", 1029},
       {"CONTROL_RESET", 0},
-      {"COEFFICIENT_BITS", 17},
-      {"PARALLEL_MULTIPLIERS", 0},
-      {"MULTIPLIER_A_BITS", 35},
-      {"MULTIPLIER_B_BITS", 18},
-      {"PRODUCT_BITS", 53},
-      {"TRAVEL_BITS", 16},
       {"SCENE_GUARD_BITS", 2},
       {"REQUIRE_WATCHDOG", 0},
       {"EMF_IN_LAW", 1},
@@ -337,9 +324,8 @@ struct LeverLaw {
       {"ABSOLUTE_TABLE", 0},
       {"HALL", 0},
       {"PHASES", 2},
-      {"MODULATION", 0},
       {"ROUNDING", 0},
-      {"DESIGN_CRC", 1031372024},
+      {"DESIGN_CRC", 2645506470},
       {"TICK_W", 6},
       {"FEED_W", 23},
       {"POSITION_W", 32},
@@ -434,103 +420,6 @@ struct LeverLaw {
       {"P_WALL_STIFFNESS_F", 20},
       {"P_WALL_DAMPING_F", 20},
   };
-
-  /// All of it as text, for axis::Design::read().
-  static constexpr const char* text = R"(CLOCK_HZ 50000000 CLOCKS_PER_TICK 50 M1 767 VELOCITY_SHIFT 1
-VELOCITY_GAIN 0 VELOCITY_GAIN_F 17 INDEX_COUNTS 4096 PWM_PERIOD 1000
-DEAD_CLOCKS 25 SHORTEST_CLOCKS 10 SCENE_MASK 1029 CONTROL_RESET 0
-COEFFICIENT_BITS 17 PARALLEL_MULTIPLIERS 0 MULTIPLIER_A_BITS 35 MULTIPLIER_B_BITS 18
-PRODUCT_BITS 53 TRAVEL_BITS 16 SCENE_GUARD_BITS 2 REQUIRE_WATCHDOG 0
-EMF_IN_LAW 1 I2T_START 1460000000 AXES 1 ENGINE 1
-ENGINE_MAX_AGE 1000 MT_COUNTS 0 MT_WINDOW 0 MT_DOUBLINGS 0
-EDGE_UNIT_BITS 6 FAST_EDGES 0 SELF_TEST_DROP 0 CURRENT_LOOP 0
-CURRENT_DROP 0 CURRENT_PROPORTIONAL 0 CURRENT_INTEGRAL 0 CURRENT_RESISTANCE 0
-CURRENT_MARGIN 0 CURRENT_OVERCURRENT 0 CURRENT_STROBE 0 FEED_GAIN 0
-FEED_DROP 0 DRIVER_FAULT 0 HEARTBEAT 0 ABSOLUTE_ENCODER 0
-ABSOLUTE_FRAMING 0 ABSOLUTE_BITS 0 ABSOLUTE_HALF_CLOCKS 0 ABSOLUTE_GAP_CLOCKS 0
-ABSOLUTE_PERIOD 0 ABSOLUTE_JUMP_STEP 0 ABSOLUTE_DIAGNOSIS 0 ABSOLUTE_TABLE 0
-HALL 0 PHASES 2 MODULATION 0 ROUNDING 0
-POSITION_W 32 POSITION_F 0 SCENE_POSITION_W 18 SCENE_POSITION_F 0
-SCENE_OFFSET_W 26 SCENE_OFFSET_F 8 SCENE_DISTANCE_W 27 SCENE_DISTANCE_F 8
-SCENE_PART_W 29 SCENE_PART_F 18 SCENE_TORQUE_W 29 SCENE_TORQUE_F 16
-TRAVEL_DIFFERENCE_W 16 TRAVEL_DIFFERENCE_F 0 VELOCITY_RAW_W 16 VELOCITY_RAW_F -1
-VELOCITY_W 32 VELOCITY_F 21 VELOCITY_DIFFERENCE_W 33 VELOCITY_DIFFERENCE_F 21
-INERTIA_TORQUE_W 37 INERTIA_TORQUE_F 30 DRIVE_TORQUE_W 31 DRIVE_TORQUE_F 30
-OBSERVER_W 38 OBSERVER_F 30 OBSERVER_DIFFERENCE_W 35 OBSERVER_DIFFERENCE_F 26
-OBSERVED_W 39 OBSERVED_F 30 TORQUE_W 21 TORQUE_F 16
-RAMP_W 29 RAMP_F 24 CURRENT_W 22 CURRENT_F 16
-CURRENT_PART_W 27 CURRENT_PART_F 16 CURRENT_SUM_W 28 CURRENT_SUM_F 16
-VOLTAGE_W 20 VOLTAGE_F 14 VOLTAGE_PART_W 26 VOLTAGE_PART_F 14
-VOLTAGE_SUM_W 28 VOLTAGE_SUM_F 14 EMF_W 20 EMF_F 14
-APPLIED_W 21 APPLIED_F 14 DUTY_W 13 DUTY_F 0
-DUTY_SUM_W 14 DUTY_SUM_F 0 LIMITER_W 22 LIMITER_F 0
-WITH_ADDEND_W 23 WITH_ADDEND_F 0 LIMITER_INPUT_W 29 LIMITER_INPUT_F 0
-CURRENT_ESTIMATE_PART_W 16 CURRENT_ESTIMATE_PART_F 8 CURRENT_ESTIMATE_W 17 CURRENT_ESTIMATE_F 8
-CURRENT_SQUARED_W 19 CURRENT_SQUARED_F 2 I2T_W 32 I2T_F 2
-CHARGE_W 32 CHARGE_F 16 P_VELOCITY_A1_F 27 P_INVERSE_RESISTANCE_F 15
-P_EMF_OVER_RESISTANCE_F 20 P_TORQUE_CONSTANT_F 22 P_INERTIA_GAIN_F 21 P_OBSERVER_A1_F 27
-P_EMF_CONSTANT_F 22 P_OBSERVER_GAIN_F 17 P_VOLTAGE_TO_CURRENT_F 15 P_TORQUE_GAIN_F 11
-P_DEAD_VOLTAGE_SLOPE_F 10 P_VOLTAGE_GAIN_F 18 P_VOLTAGE_GAIN_HIGH_F 18 P_DUTY_GAIN_F 11
-P_COMPRESSION_STIFFNESS_F 26 P_TENSION_STIFFNESS_F 26 P_DAMPER_DAMPING_F 22 P_ATTRACT_CORE_SLOPE_F 25
-P_REPEL_CORE_SLOPE_F 25 P_WALL_STIFFNESS_F 20 P_WALL_DAMPING_F 20
-word velocity_a1 4 17 0 27 67092
-word inverse_resistance 5 17 0 15 78019
-word emf_over_resistance 7 17 0 20 75398
-word torque_constant 8 17 0 22 126668
-word inertia_gain 9 17 0 21 127926
-word nominal_current_squared 17 32 0 2 133
-word observer_a1 15 17 0 27 67092
-word overspeed 16 31 0 21 1286812467
-word i2t_budget 18 32 0 2 2920000000
-word polarity_speed 19 31 0 21 12582912
-word polarity_current 20 21 0 16 393216
-word polarity_ticks 21 16 0 0 4000
-word emf_constant 22 17 0 22 126668
-word observer_gain 23 18 1 17 0
-word voltage_setpoint 31 20 1 14 0
-word voltage_step 32 19 0 14 39
-word torque_limit 24 20 0 16 32768
-word ramp_step 25 28 0 24 84
-word voltage_to_current 27 17 0 15 78019
-word torque_gain 28 17 0 11 67815
-word dead_voltage_slope 29 17 0 10 99840
-word region_torque 30 20 0 16 32768
-word hold_torque 36 20 0 16 16384
-word hold_time 43 14 0 0 4883
-word hold_limit 56 20 0 16 8192
-word current_limit 33 21 0 16 1087898
-word voltage_gain 34 17 0 18 110100
-word voltage_gain_high 50 17 0 18 110100
-word dead_voltage 35 19 0 14 15974
-word voltage_window 39 19 0 14 132956
-word duty_gain 40 17 0 11 85333
-word duty_limit 45 12 0 0 965
-word watchdog_ticks 46 24 0 0 100000
-word self_test_torque 51 20 0 16 3277
-word self_test_quiet 37 8 0 0 157
-word self_test_pulse 38 8 0 0 0
-word self_test_arms 41 2 0 0 3
-word setpoint_torque 74 21 1 16 0
-word membrane_lower 97 26 1 8 83443
-word membrane_upper 98 26 1 8 116820
-word membrane_torque 106 20 0 16 32768
-word compression_contact 129 26 1 8 83443
-word compression_stiffness 130 17 0 26 102944
-word tension_rest 161 26 1 8 0
-word tension_stiffness 162 17 0 26 51472
-word damper_damping 202 17 0 22 125829
-word attract_centre 225 26 1 8 0
-word attract_strength 226 32 0 16 557019098
-word attract_core 230 18 0 0 130
-word attract_core_slope 227 17 0 25 128680
-word repel_centre 257 26 1 8 0
-word repel_strength 258 32 0 16 557019098
-word repel_core 262 18 0 0 130
-word repel_core_slope 259 17 0 25 128680
-word wall_contact 289 26 1 8 83443
-word wall_stiffness 290 17 0 20 6434
-word wall_damping 298 17 0 20 5243
-)";
 };
 
 }  // namespace feltgate

@@ -1,1 +1,0 @@
-cd $HERE; for n in 1000 5000; do nice -n 15 valgrind --tool=callgrind --callgrind-out-file=cg.$n ./${1:-speed} lever/design.txt $n 2>&1 | grep -E "refs" | tr -d ' ,' | sed 's/.*://' ; done | paste -sd' ' | awk '{print ($2-$1)/4000}'; callgrind_annotate cg.5000 2>/dev/null | grep "^ *[0-9]" | head -${2:-24} | cut -c1-150

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_lock_step(<block> [DESIGNS design...] [TEST file.cpp] [SOURCES other.sv...]): a block of package cfg
-# beside its twin. Verilates the block of each design (default lever and paper), writes its ports for C++ and links
-# both with <block>_test.cpp as the CTest <block>.<design>, labels unit and lockstep. SOURCES lie in rtl/, before the
-# block. Of the first design the CTest mutate.<block>.<design> tries mutants. docs/testing.md
+# feltgate_lock_step(<block> [DESIGNS design...] [TEST file.cpp] [SOURCES other.sv...] [FILE block.sv] [FOLDER folder]
+#   [PARAMS -GName=value...]): a block of package cfg beside its twin.
+# Verilates the block of each design (default lever and paper), writes its ports for C++ and links both with
+# <block>_test.cpp as the CTest <block>.<design>, labels unit and lockstep. SOURCES lie in rtl/, before the block, and
+# FILE, the block, where two have its name. FOLDER has cfg.sv and header of a design that only tests use. Of the first
+# design the CTest mutate.<block>.<design> tries mutants. docs/testing.md
 include_guard(GLOBAL)
 
 function(feltgate_lock_step block)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST" "DESIGNS;SOURCES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST;FILE;FOLDER" "DESIGNS;SOURCES;PARAMS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "feltgate_lock_step(${block}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -20,24 +22,34 @@ function(feltgate_lock_step block)
   endif()
   list(TRANSFORM arg_SOURCES PREPEND "${FELTGATE_ROOT}/rtl/")
   file(GLOB own "${FELTGATE_ROOT}/rtl/*/${block}.sv")
+  if(arg_FILE)
+    set(own "${FELTGATE_ROOT}/rtl/${arg_FILE}")
+  endif()
   set(ports "${FELTGATE_ROOT}/testbench/common/block_ports.py")
   list(GET arg_DESIGNS 0 first)
   foreach(design IN LISTS arg_DESIGNS)
     set(name ${block}.${design})
     set(folder "${CMAKE_CURRENT_BINARY_DIR}/${name}")
-    set(sources "${FELTGATE_ROOT}/rtl/generated/${design}/cfg.sv" "${FELTGATE_ROOT}/rtl/generated/map.sv"
+    set(package "${FELTGATE_ROOT}/rtl/generated/${design}/cfg.sv")
+    set(header "feltgate/generated/${design}.hpp")
+    if(arg_FOLDER)
+      set(package "${arg_FOLDER}/cfg.sv")
+      set(header "${arg_FOLDER}/${design}.hpp")
+    endif()
+    set(sources "${package}" "${FELTGATE_ROOT}/rtl/generated/map.sv"
       "${FELTGATE_ROOT}/rtl/core/fx.sv" ${arg_SOURCES} ${own})
-    feltgate_verilate(${name}_rtl ${block} "${sources}" -Wno-UNUSEDSIGNAL)
+    feltgate_verilate(${name}_rtl ${block} "${sources}" -Wno-UNUSEDSIGNAL ${arg_PARAMS})
     add_custom_command(OUTPUT "${folder}/ports/${block}.hpp"
       COMMAND ${CMAKE_COMMAND} -E make_directory "${folder}/ports"
       COMMAND ${CMAKE_COMMAND} -E env "VERILATOR_ROOT=${VERILATOR_ROOT}" ${VERILATOR_BIN} --xml-only
-              --xml-output "${folder}/${block}.xml" --Mdir "${folder}" --top-module ${block} -Wno-fatal -Wno-lint ${sources}
+              --xml-output "${folder}/${block}.xml" --Mdir "${folder}" --top-module ${block} -Wno-fatal -Wno-lint ${arg_PARAMS}
+              ${sources}
       COMMAND ${Python3_EXECUTABLE} -B "${ports}" "${folder}/${block}.xml" "${folder}/ports/${block}.hpp"
       DEPENDS ${sources} "${ports}" VERBATIM)
     add_library(${name}_object OBJECT ${arg_TEST} "${folder}/ports/${block}.hpp")
     feltgate_type_of(${design} type)
     target_compile_definitions(${name}_object PRIVATE FELTGATE_DESIGN=feltgate::${type}
-      FELTGATE_DESIGN_HEADER="feltgate/generated/${design}.hpp")
+      FELTGATE_DESIGN_HEADER="${header}")
     target_compile_options(${name}_object PRIVATE ${FELTGATE_WARNINGS} -O1)
     target_precompile_headers(${name}_object REUSE_FROM feltgate_catch_main)
     target_include_directories(${name}_object PRIVATE "${folder}")
@@ -46,7 +58,7 @@ function(feltgate_lock_step block)
     target_link_libraries(${name}_test PRIVATE feltgate_catch_main ${name}_rtl)
     set(when "")
     if(design STREQUAL first)
-      feltgate_mutants(${name} ${block} "${sources}" "")
+      feltgate_mutants(${name} ${block} "${sources}" "" ${arg_PARAMS})
     else()
       feltgate_weekly(when ${name} 3)
     endif()

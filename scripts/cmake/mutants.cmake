@@ -43,7 +43,7 @@ function(feltgate_mutants test block sources libraries)
     COMMENT "Making mutants of ${test}" VERBATIM)
   # Packages for the types of the ports. Yosys' Verilog is not written to please a linter.
   set(packages ${sources})
-  list(FILTER packages INCLUDE REGEX "_pkg\\.sv$")
+  list(FILTER packages INCLUDE REGEX "(_pkg|/cfg|/map)\\.sv$")
   feltgate_verilate(${target}_rtl ${block} "${packages};${folder}/${block}.sv"
     -Wno-fatal -Wno-lint -Wno-style -Wno-UNOPTFLAT --trace-depth 1 --flatten ${ARGN})
   target_compile_options(${target}_rtl PRIVATE -O1)

@@ -9,7 +9,8 @@
 //   legal(In&, Random&)         makes inputs that the block is not made for into legal ones
 //   between(const In&)          for inputs that act without a clock
 //   asynchronous(In&, const In&) what may not change between the edges, from the second
-//   holds, strobes(In&, clock)  of a tick block: its inputs hold for so many clocks from strobe 0 on
+//   holds, strobes(In&, clock)  of a tick block: its inputs hold for so many clocks from strobe 0
+//   on
 // docs/testing.md
 #pragma once
 
@@ -106,14 +107,16 @@ In at_home() {
 }
 
 namespace detail {
-#define FELTGATE_HAS(NAME, EXPRESSION)                                \
-  template <class Twin, class = void>                                 \
-  struct NAME : std::false_type {};                                   \
-  template <class Twin>                                               \
+#define FELTGATE_HAS(NAME, EXPRESSION) \
+  template <class Twin, class = void>  \
+  struct NAME : std::false_type {};    \
+  template <class Twin>                \
   struct NAME<Twin, std::void_t<decltype(EXPRESSION)>> : std::true_type {};
 FELTGATE_HAS(HasReset, std::declval<Twin&>().reset(std::declval<const typename Twin::In&>()))
-FELTGATE_HAS(HasLegal, std::declval<Twin&>().legal(std::declval<typename Twin::In&>(), std::declval<Random&>()))
-FELTGATE_HAS(HasAsynchronous, Twin::asynchronous(std::declval<typename Twin::In&>(), std::declval<const typename Twin::In&>()))
+FELTGATE_HAS(HasLegal, std::declval<Twin&>().legal(std::declval<typename Twin::In&>(),
+                                                   std::declval<Random&>()))
+FELTGATE_HAS(HasAsynchronous, Twin::asynchronous(std::declval<typename Twin::In&>(),
+                                                 std::declval<const typename Twin::In&>()))
 FELTGATE_HAS(HasBetween, std::declval<Twin&>().between(std::declval<const typename Twin::In&>()))
 FELTGATE_HAS(HasStrobes, Twin::strobes(std::declval<typename Twin::In&>(), 0))
 #undef FELTGATE_HAS
@@ -141,7 +144,8 @@ class Swarm {
         if (h.kind == pulse) field = Field{};
         return;
       }
-      field = static_cast<Field>(value(h, static_cast<std::int64_t>(field), at_home, width, is_signed));
+      field =
+          static_cast<Field>(value(h, static_cast<std::int64_t>(field), at_home, width, is_signed));
     });
   }
   /// What the twin takes for legal, within the formats.
@@ -176,7 +180,8 @@ class Swarm {
       habits_.push_back(h);
     });
   }
-  std::int64_t value(const Habit& h, std::int64_t old, std::int64_t at_home, int width, bool is_signed) {
+  std::int64_t value(const Habit& h, std::int64_t old, std::int64_t at_home, int width,
+                     bool is_signed) {
     const std::uint64_t all = ports::mask(width), top = is_signed ? all >> 1 : all;
     const auto in_format = [&](std::uint64_t w) { return ports::in_format(w, width, is_signed); };
     if (h.kind == home) return at_home;
@@ -189,7 +194,8 @@ class Swarm {
       case ends:
         return in_format((random_.coin() ? top : is_signed ? top + 1 : 0) + random_.below(3) - 1);
       case walk:
-        return in_format(static_cast<std::uint64_t>(old) + random_.below(std::uint64_t{2} << (h.size / 2)) -
+        return in_format(static_cast<std::uint64_t>(old) +
+                         random_.below(std::uint64_t{2} << (h.size / 2)) -
                          (std::uint64_t{1} << (h.size / 2)));
       case bit:
         return in_format(std::uint64_t{1} << random_.below(static_cast<std::uint64_t>(width)));
@@ -197,7 +203,8 @@ class Swarm {
         return in_format(static_cast<std::uint64_t>(old) + 1);
       case constant: {
         constexpr auto n = std::size(Block::constants);
-        return in_format(Block::constants[random_.below(n)] + (random_.one_in(4) ? random_.below(3) - 1 : 0));
+        return in_format(Block::constants[random_.below(n)] +
+                         (random_.one_in(4) ? random_.below(3) - 1 : 0));
       }
       case stay:
         return old;
@@ -218,7 +225,8 @@ struct BenchOptions {
   const char* constant = "";    ///< outputs that nothing changes
 };
 
-/// Which values the outputs had: of one bit both, of a signed output both signs, of others not 0 alone.
+/// Which values the outputs had: of one bit both, of a signed output both signs, of others not 0
+/// alone.
 template <class Out>
 class Reached {
  public:
@@ -250,7 +258,8 @@ class Reached {
 
 /// Compares a block and its twin. Inputs also change between the edges.
 template <class Twin>
-void lock_step(const Twin& prototype, const BenchOptions& o = {}, const typename Twin::In& home = at_home<typename Twin::In>()) {
+void lock_step(const Twin& prototype, const BenchOptions& o = {},
+               const typename Twin::In& home = at_home<typename Twin::In>()) {
   using Block = typename Twin::Block;
   using In = typename Twin::In;
   using Out = typename Twin::Out;
@@ -281,9 +290,12 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {}, const typename
       check.first().cycle = clock;
       check.first().instant = instant;
     };
-    for (const auto clocks = scaled_clocks(o.clocks) / static_cast<std::int64_t>(o.seeds); clock < clocks; ++clock) {
-      if (reset > 0) --reset;
-      else if (seed % 2 == 0 && random.one_in(o.resets)) reset = 1 + static_cast<int>(random.below(8));
+    for (const auto clocks = scaled_clocks(o.clocks) / static_cast<std::int64_t>(o.seeds);
+         clock < clocks; ++clock) {
+      if (reset > 0)
+        --reset;
+      else if (seed % 2 == 0 && random.one_in(o.resets))
+        reset = 1 + static_cast<int>(random.below(8));
       if constexpr (detail::HasStrobes<Twin>::value) {
         if (of_tick == 0 || of_tick >= Twin::holds) swarm.next(of_tick == 0 ? fresh : noise);
         if (of_tick == 0) swarm.legal(twin, fresh);
@@ -297,8 +309,10 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {}, const typename
         swarm.legal(twin, in);
       }
       if (reset > 0) {
-        if constexpr (detail::HasReset<Twin>::value) twin.reset(in);
-        else twin = prototype;
+        if constexpr (detail::HasReset<Twin>::value)
+          twin.reset(in);
+        else
+          twin = prototype;
       }
       rtl->rst_ni = reset > 0 ? 0 : 1;
       if (reset == 0 && random.one_in(4)) {

@@ -10,9 +10,8 @@ namespace {
 
 struct Twin : TickTwin<ports::observer, Observer<Fixed>> {
   void clock(const In& in) {
-    block.clock(in.start, [&] {
-      return law.tick(block.state, in.p, in.armed, in.current, in.velocity);
-    });
+    block.clock(in.start,
+                [&] { return law.tick(block.state, in.p, in.armed, in.current, in.velocity); });
   }
   Out out(const In&) const { return {block.shown.tau_hat, block.shown.saturated, valid()}; }
 };

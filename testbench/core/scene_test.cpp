@@ -21,8 +21,10 @@ struct Twin : TickTwin<ports::scene, Scene<Fixed>> {
   void legal(In& in, Random& random) {
     if (random.one_in(20)) number = static_cast<int>(random.below(16));
     in.scene = number;
-    if (random.one_in(4)) in.p.scene_2 = static_cast<std::uint32_t>(in.p.scene_1 + random.between(0, 1 << 16));
-    if (random.coin()) in.position = static_cast<std::int32_t>((in.p.scene_1 >> 8) + random.between(-300, 300));
+    if (random.one_in(4))
+      in.p.scene_2 = static_cast<std::uint32_t>(in.p.scene_1 + random.between(0, 1 << 16));
+    if (random.coin())
+      in.position = static_cast<std::int32_t>((in.p.scene_1 >> 8) + random.between(-300, 300));
     if (in.p.scene_10 == 0) in.p.scene_10 = static_cast<std::int32_t>(random.bits());
     in.armed = !random.one_in(8);
   }
@@ -48,10 +50,10 @@ struct Twin : TickTwin<ports::scene, Scene<Fixed>> {
 }  // namespace
 
 TEST_CASE("scene: RTL and twin, every clock") {
-  lock_step(Twin(), {1'600'000});
+  lock_step(Twin(), {800'000});
   using S = Map::S;
-  for (const int scene : {S::setpoint, S::membrane, S::spring_compression, S::spring_tension, S::damper,
-                          S::charge_attract, S::charge_repel, S::wall, S::law}) {
+  for (const int scene : {S::setpoint, S::membrane, S::spring_compression, S::spring_tension,
+                          S::damper, S::charge_attract, S::charge_repel, S::wall, S::law}) {
     CAPTURE(scene);
     const auto& of = Twin::torques[static_cast<std::size_t>(scene)];
     const bool built = Scene<Fixed>(design()).has(scene);

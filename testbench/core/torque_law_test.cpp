@@ -23,4 +23,4 @@ struct Twin : TickTwin<ports::torque_law, TorqueLaw<Fixed>> {
 
 }  // namespace
 
-TEST_CASE("torque_law: RTL and twin, every clock") { lock_step(Twin(), {1'600'000}); }
+TEST_CASE("torque_law: RTL and twin, every clock") { lock_step(Twin(), {800'000}); }

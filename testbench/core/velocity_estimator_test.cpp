@@ -19,7 +19,8 @@ struct Twin : TickTwin<ports::velocity_estimator, VelocityEstimator<Fixed>> {
   Out out(const In&) const { return {block.shown.velocity, block.shown.saturated, valid()}; }
 
   TravelWindow window;
-  std::vector<std::int16_t> line = std::vector<std::int16_t>(static_cast<std::size_t>(design()["M1"]));
+  std::vector<std::int16_t> line =
+      std::vector<std::int16_t>(static_cast<std::size_t>(design()["M1"]));
 };
 
 }  // namespace

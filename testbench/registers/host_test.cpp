@@ -15,9 +15,12 @@ struct Twin : BlockTwin<ports::host> {
     in.tick.clock = at;
     in.tick.last = at == 49;
     at = at < 49 ? at + 1 : 0;
-    if (random.one_in(4)) in.reg_addr = static_cast<std::uint16_t>(Map::C::control + random.below(2));
-    if (random.one_in(4)) in.reg_addr = static_cast<std::uint16_t>(Map::C::snapshot + random.below(64));
-    if (random.one_in(4)) in.reg_addr = static_cast<std::uint16_t>(random.pick(design().words).address);
+    if (random.one_in(4))
+      in.reg_addr = static_cast<std::uint16_t>(Map::C::control + random.below(2));
+    if (random.one_in(4))
+      in.reg_addr = static_cast<std::uint16_t>(Map::C::snapshot + random.below(64));
+    if (random.one_in(4))
+      in.reg_addr = static_cast<std::uint16_t>(random.pick(design().words).address);
     in.reg_write = in.reg_write && random.one_in(4);
   }
   Values values(const In& in) const {
@@ -26,8 +29,8 @@ struct Twin : BlockTwin<ports::host> {
     return v;
   }
   void clock(const In& in) {
-    block.clock(memory, bank, formats(), tick_of(in.tick), panel_of(in.panel), port(in), safe_of(in.safety),
-                position_of(in.position), values(in));
+    block.clock(memory, bank, formats(), tick_of(in.tick), panel_of(in.panel), port(in),
+                safe_of(in.safety), position_of(in.position), values(in));
   }
   static RegisterPort port(const In& in) { return {in.reg_addr, in.reg_wdata, in.reg_write}; }
   Out out(const In& in) const {
@@ -40,14 +43,17 @@ struct Twin : BlockTwin<ports::host> {
     o.reg_busy = block.registers.busy();
     o.reg_rdata = block.rdata;
     o.p = memory.p;
-    o.control = {c.filter(), c.pwm_mode(), c.encoder_polarity(), c.motor_polarity(), c.mode(), c.scene(), c.arm(), c.host()};
-    o.commands = {m.host, m.host_arm, m.panel_arm, m.disarm, m.stop, m.host_stop, m.clear_faults, m.kick, m.mode};
+    o.control = {
+        c.filter(), c.pwm_mode(), c.encoder_polarity(), c.motor_polarity(), c.mode(), c.scene(),
+        c.arm(),    c.host()};
+    o.commands = {m.host,      m.host_arm,     m.panel_arm, m.disarm, m.stop,
+                  m.host_stop, m.clear_faults, m.kick,      m.mode};
     o.scene = block.scene;
     o.set_zero = block.registers.set_zero(last);
     o.restart = block.registers.restart(last, block.scene);
     o.trip = block.params.word_error();
-    o.snapshot = {v.tick, v.position, v.status, v.faults, v.encoder, v.index, v.scene, v.limits, v.velocity,
-                  v.tau_hat, v.tau_ref, v.current, v.voltage, v.duty};
+    o.snapshot = {v.tick,   v.position, v.status,  v.faults,  v.encoder, v.index,   v.scene,
+                  v.limits, v.velocity, v.tau_hat, v.tau_ref, v.current, v.voltage, v.duty};
     o.word = {w.valid, w.place, w.data};
     return o;
   }

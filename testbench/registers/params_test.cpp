@@ -11,7 +11,8 @@ namespace {
 struct Twin : BlockTwin<ports::params> {
   void legal(In& in, Random& random) {
     in.write = in.write && random.one_in(20);
-    if (random.one_in(3)) in.address = static_cast<std::uint16_t>(random.pick(design().words).address);
+    if (random.one_in(3))
+      in.address = static_cast<std::uint16_t>(random.pick(design().words).address);
     if (random.coin()) in.clock = at;
     at = at < 49 ? at + 1 : 0;
   }

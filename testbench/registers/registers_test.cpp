@@ -11,12 +11,16 @@ namespace {
 struct Twin : BlockTwin<ports::registers> {
   /// Addresses of words, and of control and commands; data of each format.
   void legal(In& in, Random& random) {
-    if (random.one_in(4)) in.reg_addr = static_cast<std::uint16_t>(Map::C::control + random.below(2));
-    if (random.one_in(4)) in.reg_addr = static_cast<std::uint16_t>(random.pick(design().words).address);
+    if (random.one_in(4))
+      in.reg_addr = static_cast<std::uint16_t>(Map::C::control + random.below(2));
+    if (random.one_in(4))
+      in.reg_addr = static_cast<std::uint16_t>(random.pick(design().words).address);
     if (random.one_in(3)) in.reg_wdata >>= random.below(32);
   }
   Registers::In at(const In& in) const {
-    return {in.tick, {in.reg_addr, in.reg_wdata, in.reg_write}, in.armed, in.polarity_holds, in.set_zero, in.scene};
+    return {in.tick,     {in.reg_addr, in.reg_wdata, in.reg_write},
+            in.armed,    in.polarity_holds,
+            in.set_zero, in.scene};
   }
   void clock(const In& in) { block.clock(formats(), at(in)); }
   Out out(const In& in) const {
@@ -24,7 +28,8 @@ struct Twin : BlockTwin<ports::registers> {
     const Control& c = block.control;
     const auto command = [&](int bit) { return block.command(in.tick, bit); };
     return {block.busy(),
-            {c.filter(), c.pwm_mode(), c.encoder_polarity(), c.motor_polarity(), c.mode(), c.scene(), c.arm(), c.host()},
+            {c.filter(), c.pwm_mode(), c.encoder_polarity(), c.motor_polarity(), c.mode(),
+             c.scene(), c.arm(), c.host()},
             false,
             block.write(in.tick, in.armed),
             block.address(),
@@ -48,5 +53,5 @@ struct Twin : BlockTwin<ports::registers> {
 }  // namespace
 
 TEST_CASE("registers: RTL and twin, every clock") {
-  lock_step(Twin(), {1'600'000, 8, 5000, "control_error"});
+  lock_step(Twin(), {800'000, 8, 5000, "control_error"});
 }

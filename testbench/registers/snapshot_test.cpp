@@ -16,7 +16,8 @@ struct Twin : BlockTwin<ports::snapshot> {
     if (random.coin()) in.read_addr = Map::C::read_duty - Map::C::snapshot;
   }
   void clock(const In& in) {
-    block.clock(memory, in.tick, in.begin, in.end, in.freeze, in.thaw, values_of(in.values), in.read_addr);
+    block.clock(memory, in.tick, in.begin, in.end, in.freeze, in.thaw, values_of(in.values),
+                in.read_addr);
   }
   Out out(const In&) const {
     const SnapshotWord& w = block.word;

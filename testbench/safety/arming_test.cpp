@@ -17,8 +17,8 @@ struct Twin : BlockTwin<ports::arming> {
   Out out(const In& in) const {
     const Arming::In a = request(in);
     const bool locks = block.locks(a, wait_ticks);
-    return {block.request(a), block.counts(a), block.ready(a), locks, locks && !in.trip,
-            block.armed(), block.open()};
+    return {block.request(a),  block.counts(a), block.ready(a), locks,
+            locks && !in.trip, block.armed(),   block.open()};
   }
 
   Arming block;

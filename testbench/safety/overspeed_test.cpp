@@ -14,7 +14,8 @@ struct Twin : BlockTwin<ports::overspeed> {
   /// Limits near the velocity.
   void legal(In& in, Random& random) {
     const std::int64_t speed = std::abs(std::int64_t{in.velocity}) + random.between(-1, 1);
-    if (random.one_in(4)) in.p.overspeed = static_cast<std::uint32_t>(std::max<std::int64_t>(speed, 0)) & ~(1U << 31);
+    if (random.one_in(4))
+      in.p.overspeed = static_cast<std::uint32_t>(std::max<std::int64_t>(speed, 0)) & ~(1U << 31);
   }
   void clock(const In& in) {
     block.clock(in.start, [&] { return law.tick(block.state, in.p, in.velocity); });

@@ -29,7 +29,9 @@ struct Twin : BlockTwin<ports::safety> {
     c.clear_faults = c.clear_faults && last;
     if (calm) {
       const bool rare = random.one_in(4000);
-      const auto keep = [rare](auto& bit) { bit = static_cast<std::decay_t<decltype(bit)>>(rare ? bit : 0); };
+      const auto keep = [rare](auto& bit) {
+        bit = static_cast<std::decay_t<decltype(bit)>>(rare ? bit : 0);
+      };
       keep(in.trips), keep(c.stop), keep(c.host_stop), keep(in.bridge.why), keep(in.peers.fault);
       auto& s = in.position;
       keep(s.why), keep(s.trip_channel), keep(s.trip_index), keep(s.trip_flip), keep(s.illegal);
@@ -71,8 +73,9 @@ struct Twin : BlockTwin<ports::safety> {
   void clock(const In& in) { block.clock(laws, in.p, Converted(in).to); }
   Out out(const In& in) const {
     const Safe s = block.see(laws, Converted(in).to);
-    return {{s.armed, s.locks, s.gates_enable, s.gates_clear, s.clear, s.arm_request, s.ready, s.unkicked,
-             s.derated, s.testing, s.test_torque, s.test_result, s.faults, s.first_fault, s.current_estimate}};
+    return {{s.armed, s.locks, s.gates_enable, s.gates_clear, s.clear, s.arm_request, s.ready,
+             s.unkicked, s.derated, s.testing, s.test_torque, s.test_result, s.faults,
+             s.first_fault, s.current_estimate}};
   }
   void reset(const In& in) {
     block.reset(in.commands.stop);

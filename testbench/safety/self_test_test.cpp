@@ -26,8 +26,10 @@ struct Twin : BlockTwin<ports::self_test> {
     if (!random.one_in(8)) in.p.self_test_quiet &= 3;
     if (!random.one_in(8)) in.p.self_test_pulse &= 7;
     const int along = block.pulse();
-    if (motion < 3) travel += motion == 0 ? 0 : motion == 1 ? along : -along;
-    else travel += static_cast<int>(random.below(4));
+    if (motion < 3)
+      travel += motion == 0 ? 0 : motion == 1 ? along : -along;
+    else
+      travel += static_cast<int>(random.below(4));
     in.travel = travel & 3;
   }
   void clock(const In& in) {
@@ -39,7 +41,8 @@ struct Twin : BlockTwin<ports::self_test> {
   Out out(const In& in) const {
     const std::int64_t end = std::int64_t{1} << (design()["SCENE_TORQUE_W"] - 1);
     const int pulse = block.pulse();
-    return {block.busy(in.armed), pulse > 0 ? end - 1 : pulse * end, block.result(), after && block.failed()};
+    return {block.busy(in.armed), pulse > 0 ? end - 1 : pulse * end, block.result(),
+            after && block.failed()};
   }
 
   SelfTest block;
@@ -63,6 +66,6 @@ struct Longest : Twin {
 
 }  // namespace
 
-TEST_CASE("self_test: RTL and twin, every clock") { lock_step(Twin(), {1'600'000}); }
+TEST_CASE("self_test: RTL and twin, every clock") { lock_step(Twin(), {800'000}); }
 
 TEST_CASE("self_test: the longest times") { lock_step(Longest(), {20'000, 1}); }

@@ -11,9 +11,17 @@
 
 #include "feltgate/axes_ports.hpp"
 #include "feltgate/engine_runs.hpp"
+#include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/map.hpp"
 
 namespace feltgate {
+
+/// A program's torques, in the format of the torque; late: they are too old or not checked.
+template <int N>
+struct Program {
+  std::array<std::int32_t, N> torque{};
+  bool late = false;
+};
 
 /// Without an engine: the programmed torques come from the ports.
 template <class D, int N>
@@ -22,14 +30,17 @@ class NoAxesEngine {
   void reset() {}
   template <class Cores>
   void clock(const AxesIn<N>&, const Cores&, const std::array<CoreIn, N>&) {}
-  /// Sets the law inputs of the cores for the next clock.
+  /// Sets what the cores take of the program in every clock.
   template <class Cores>
   void give(const AxesIn<N>& in, const Cores&, std::array<CoreIn, N>& each) const {
-    for (std::size_t n = 0; n < N; ++n) {
-      each[n].law_torque = in.axis[n].law_torque;
-      each[n].law_late = in.law_late;
-      each[n].law_restart = in.law_restart;
-    }
+    for (CoreIn& core : each) core.law_restart = in.law_restart;
+  }
+  /// What they take with the position, in the clock `ahead` clocks from now.
+  Program<N> program(const AxesIn<N>& in, int) const {
+    Program<N> p;
+    for (std::size_t n = 0; n < N; ++n) p.torque[n] = in.axis[n].law_torque;
+    p.late = in.law_late;
+    return p;
   }
   void show(const AxesIn<N>&, AxesOut<N>&) const {}
 
@@ -39,7 +50,6 @@ class NoAxesEngine {
     return true;
   }
   bool may_tick(int) const { return true; }
-  void torques(int, std::array<CoreIn, N>&) const {}
   template <class Cores>
   void tick(int, const Cores&) {}
   template <class Cores, class OnEvent>
@@ -79,19 +89,30 @@ class AxesEngine {
     bool law = false;
     for (const auto& core : cores) law |= in_law(core);
     for (std::size_t n = 0; n < N; ++n) {
-      each[n].law_torque = out_.torque[n];
-      each[n].law_late = out_.late || !out_.crc_good;
       each[n].law_restart = may_jump();
       each[n].axis_silent |= !state_.checked;
       each[n].axis_blocked |= law && state_.checked && !out_.crc_good;
     }
   }
 
+  Program<N> program(const AxesIn<N>&, int ahead) {
+    Program<N> p;
+    p.late = out_.late || !out_.crc_good;
+    if (runs_.on()) {
+      p.torque = runs_.torque(ahead);
+    } else {
+      runs_.take();
+      p.torque = out_.torque;
+    }
+    return p;
+  }
+
   /// One clock; call it before the cores' clock.
   template <class Cores>
   void clock(const AxesIn<N>& in, const Cores& cores, const std::array<CoreIn, N>& each) {
     State& s = state_;
-    if (cores[0].clock_of_tick() == D::clocks_per_tick - 1) restarts_ = may_jump();
+    const bool last = cores[0].clock_of_tick() == D::clocks_per_tick - 1;
+    if (last) restarts_ = may_jump();
     if (cores[0].measured()) restarted_ = restarts_;
     bool law = false, armed = false, all_ask = true, zeroed = false;
     for (std::size_t n = 0; n < N; ++n) {
@@ -100,8 +121,6 @@ class AxesEngine {
       all_ask &= cores[n].arm_request(each[n]);
       zeroed |= cores[n].zeroed();
     }
-    const bool last = cores[0].clock_of_tick() == D::clocks_per_tick - 1;
-    const bool sample = cores[0].clock_of_tick() == cores[0].sample_clock;
     const bool check = last && all_ask && !s.checked && !s.checks;
     const bool addressed = is_engine(in.reg_addr);
 
@@ -133,7 +152,7 @@ class AxesEngine {
       if (check) s.check_of_these = true;
     }
     s.checks = check || (s.checks && !out_.crc_done);
-    s.sampled = s.runs == 0 && (s.sampled || sample);
+    s.sampled = s.runs == 0 && (s.sampled || cores[0].clock_of_tick() == Core::sample_clock);
     if ((law && !s.law) || (armed && !s.armed) || zeroed || out_.changed) {
       s.runs = 2;
     } else if (out_.fresh && s.runs != 0) {
@@ -178,11 +197,6 @@ class AxesEngine {
     const bool may = runs_.may_tick(ahead);
     if (!may) runs_.give_up();
     return may;
-  }
-  /// Sets the torques that the cores take in the clock `ahead` clocks from now.
-  void torques(int ahead, std::array<CoreIn, N>& each) {
-    const auto& torque = runs_.torque(ahead);
-    for (std::size_t n = 0; n < N; ++n) each[n].law_torque = torque[n];
   }
   /// A tick in the clock `ahead` clocks from now; the cores hold its measurements.
   template <class Cores>
@@ -247,10 +261,11 @@ class AxesEngine {
   }
 
   using Runs = law::EngineRuns<N, D::f.torque.width()>;
-  // The core shows the snapshot one clock before its step.
-  static constexpr law::RunTiming kTiming{D::clocks_per_tick, Map::T::tau_hat - Map::T::sample,
-                                          Map::T::tau_hat - Map::T::velocity,
-                                          Map::T::snapshot - Map::T::tau_hat - 2};
+  using Core = FeltgateCore<D>;
+  static constexpr int kMeasured = Core::measured_clock;
+  static constexpr law::RunTiming kTiming{
+      D::clocks_per_tick, kMeasured - Core::sample_clock - 1, kMeasured - Core::velocity_clock,
+      Core::law_duty_clock - kMeasured - 1};
 
   Runs runs_{D::engine_max_age, kTiming};
   typename EngineOf::Out out_;

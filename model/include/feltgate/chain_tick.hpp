@@ -14,7 +14,6 @@
 #include "feltgate/generated/map.hpp"
 #include "feltgate/scenes.hpp"
 #include "feltgate/torque_control.hpp"
-#include "feltgate/velocity_mt.hpp"
 #include "feltgate/velocity_n.hpp"
 #include "feltgate/words.hpp"
 
@@ -69,7 +68,7 @@ class ChainTick {
 
   /// Stage 1: velocity from the travel.
   void estimate(std::int16_t travel) {
-    static_assert(!measures_spans<D>, "M/T needs the clocks of the edges: take FeltgateCore");
+    static_assert(D::mt_counts == 0, "M/T needs the clocks of the edges: take FeltgateCore");
     const std::int16_t counts = travel_difference(travel, line_.oldest());
     line_.push(travel);
     estimator_.tick(words_, counts);

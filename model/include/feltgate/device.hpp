@@ -106,7 +106,7 @@ class Device {
   void refuse_while_armed(const std::string& what) const;
   int clock_of_tick() const { return static_cast<int>(now_ % design_.clocks_per_tick); }
   Clock end_of_tick() const { return now_ + design_.clocks_per_tick - clock_of_tick(); }
-  void begin_tick();
+  void begin_tick(const CoreOut& now);
   void advance(Clock until);
   const ParameterInfo& find(const std::string& name) const;
 

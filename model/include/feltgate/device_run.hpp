@@ -22,23 +22,23 @@ inline Device::Device(DesignInfo design) : design_(std::move(design)) {
 
 /// Sets the arm pin; arming needs a request that was low at the end of the tick before. A request
 /// that a fault or a stop has ended is not repeated.
-inline void Device::begin_tick() {
-  if ((out().faults != 0 && !clearing_) || in_.stop) wanted_ = false;
-  in_.arm = wanted_ && !clearing_ && held_ == 0 && (armed() || low_before_);
+inline void Device::begin_tick(const CoreOut& now) {
+  if ((now.faults != 0 && !clearing_) || in_.stop) wanted_ = false;
+  in_.arm = wanted_ && !clearing_ && held_ == 0 && (now.armed || low_before_);
 }
 
 /// Advances to the clock `until` with the pins unchanged.
 inline void Device::advance(Clock until) {
-  const std::pair<std::uint16_t, std::uint32_t> clear{
-      static_cast<std::uint16_t>(design_.command_address), 1u << design_.command.clear_faults};
+  const CoreOut& core = out();
   while (now_ < until) {
     const int clock = clock_of_tick();
-    if (clock == 0) begin_tick();
-    const bool waits = !writes_.empty() && armed() && holds(writes_.front().first);
-    if (clock == host_write_clock && !writes_.empty() && !waits && !out().reg_busy) {
+    if (clock == 0) begin_tick(core);
+    if (clock == host_write_clock && !writes_.empty() && !core.reg_busy &&
+        !(core.armed && holds(writes_.front().first))) {
       in_.reg_addr = writes_.front().first;
       in_.reg_wdata = writes_.front().second;
-      cleared_ = writes_.front() == clear;
+      cleared_ = in_.reg_addr == design_.command_address &&
+                 in_.reg_wdata == 1u << design_.command.clear_faults;
       if (holds(in_.reg_addr)) --held_;
       writes_.pop_front();
       in_.reg_write = true;
@@ -46,8 +46,8 @@ inline void Device::advance(Clock until) {
       ++now_;
     } else {
       const bool whole = writes_.empty() || clock >= host_write_clock;
-      const Clock next = whole ? end_of_tick() : now_ + host_write_clock - clock;
-      const Clock clocks = std::min(until, next) - now_;
+      const Clock next = (whole ? design_.clocks_per_tick : host_write_clock) - clock;
+      const Clock clocks = std::min(until - now_, next);
       in_.reg_write = false;
       stretch(in_, clocks);
       now_ += clocks;

@@ -51,6 +51,8 @@ class EngineRuns {
     if (rest_ > 0) --rest_;
   }
   const EngineWatch& watch() const { return watch_; }
+  /// The axes take the torque in this clock; with torque() instead while runs are computed as a whole.
+  void take() { watch_.take(); }
   /// Whether a commit is under way: then parameters cannot be written.
   bool committing() const { return engine_.commit_.committing(); }
 
@@ -120,7 +122,7 @@ class EngineRuns {
   /// The torques in force in the clock `ahead` clocks from now, in which the cores take them.
   const std::array<std::int32_t, AxisCount>& torque(int ahead) {
     settle(now_ + ahead);
-    watch_.in_force = watch_.ended;
+    watch_.take();
     return state_.torque;
   }
   /// Reports that `clocks` clocks have passed and what the axes show now. Calls `on_event(clock,
@@ -298,7 +300,6 @@ class EngineRuns {
     while (coming_ > 0 && comes_[0].clock < n) {
       if (comes_[0].renews(state_.renewed)) {
         fresh_at_ = comes_[0].clock + 1;
-        watch_.ended_before = watch_.ended;
         watch_.end();
         if (silent_) watch_.ended.reset();
       }

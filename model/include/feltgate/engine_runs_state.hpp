@@ -89,7 +89,6 @@ void EngineRuns<AxisCount, TorqueW>::leave() {
   auto& clocks = engine_.registers_.clocks;
   clocks = static_cast<int>(std::min<std::int64_t>(clocks, now_ - addr_since_));
   watch_.running = engine_.running(0);
-  if (fresh_at_ != now_) watch_.ended_before = watch_.ended;
 }
 
 /// Whether a run starts now or none runs, and nothing else is under way, except a word that the run

@@ -17,7 +17,8 @@
 namespace feltgate {
 
 /// N axes of design D, each a core. The device adds the signals between the cores, the register
-/// port, and with WithEngine the engine; its torque then replaces the inputs law_...
+/// port, and with WithEngine the engine; its torque then replaces the inputs law_... What a core takes
+/// of the program, and whether an axis before it tests itself, is sampled with the position.
 template <class D, int N, bool ReadBack = true, bool WithEngine = false>
 class FeltgateAxes {
  public:
@@ -34,21 +35,19 @@ class FeltgateAxes {
     for (Core& core : cores_) core.reset();
     glue_.reset();
     taken_ = {};
-    done_ = {};
+    duties_ = 0;
     show({});
   }
 
   void clock(const In& in) {
-    std::array<CoreIn, N> each = inputs(in);
-    clock_all(in, each);
+    one_clock(in, inputs(in));
     show(in);
   }
 
   /// Advances `clocks` clocks with the inputs held; reg_write and the axes' set_zero must be low.
   /// Equals so many calls of clock(), but goes from event to event where no axis can affect the
   /// others. `on_snapshot()` is called whenever out() holds a valid snapshot. A watcher gets
-  /// `event(clock, number)` for each event of a program, where clock 0 is the first of these
-  /// clocks, and `words()` when core(0) has all words of a tick.
+  /// `event(clock, number)` for each event of a program, where clock 0 is the first of these clocks.
   template <class OnSnapshot>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     NoWatcher none;
@@ -66,7 +65,6 @@ class FeltgateAxes {
         if (glue_.event_valid()) watcher.event(at, glue_.event_number());
         one_clock(in, each);
         snapshot = out_.axis[0].snapshot_valid;
-        if (snapshot) watcher.words();
       }
       if (snapshot) on_snapshot();
       at += step;
@@ -100,55 +98,47 @@ class FeltgateAxes {
   }
 
  private:
-  /// The clocks of a tick in which the cores take torques, and in which they have measured.
-  static constexpr int kTakes = Core::sample_clock, kMeasured = Core::measured_clock;
-
-  /// What an axis takes with the position and holds for a tick, as in axes_member.sv.
+  static constexpr int kSample = Core::sample_clock, kMeasured = Core::measured_clock;
+  static constexpr unsigned kAll = (1U << N) - 1;
+  /// What the cores have taken with the position.
   struct Taken {
-    std::int32_t torque = 0;
-    bool late = false, waits = false;
-    /// An input changes nothing but the torque.
-    bool holds(const CoreIn& c) const { return c.law_late == late && c.axis_waits == waits; }
-    void give(CoreIn& c) const {
-      c.law_torque = torque;
-      c.law_late = late;
-      c.axis_waits = waits;
-    }
-    void take(const CoreIn& c) { *this = {c.law_torque, c.law_late, c.axis_waits}; }
+    Program<N> program;
+    std::array<bool, N> waits{};
   };
 
   struct NoWatcher {
     void event(std::int64_t, int) {}
-    void words() {}
   };
 
   // Out of line, like pass(): flattened into an engine's advance() it takes a minute to compile and
   // is no faster.
-  [[gnu::noinline]] void one_clock(const In& in, std::array<CoreIn, N>& each) {
-    clock_all(in, each);
-    for (std::size_t n = 0; n < N; ++n) out_.axis[n] = cores_[n].out();
-    show_snapshot();
-  }
-  void clock_all(const In& in, std::array<CoreIn, N>& each) {
+  [[gnu::noinline]] void one_clock(const In& in, const std::array<CoreIn, N>& each) {
+    const int at = clock_of_tick();
+    if (at == kSample) taken_ = take(in, 0);
+    duties_ = at == D::clocks_per_tick - 1 ? 0 : duties_ | duties();
     glue_.clock(in, cores_, each);
-    const bool takes = clock_of_tick() == kTakes, last = clock_of_tick() == D::clocks_per_tick - 1;
-    for (std::size_t n = 0; n < N; ++n) {
-      const CoreIn now = each[n];
-      taken_[n].give(each[n]);
-      if (takes) taken_[n].take(now);
-      done_[n] = !last && (done_[n] || cores_[n].out().snapshot_valid);
-      cores_[n].clock(each[n]);
-    }
+    for (std::size_t n = 0; n < N; ++n) cores_[n].clock(each[n]);
+    show_axes();
+  }
+  /// The axes whose duty is new, by bit.
+  unsigned duties() const {
+    unsigned all = 0;
+    for (std::size_t n = 0; n < N; ++n) all |= (cores_[n].out().snapshot_valid ? 1U : 0U) << n;
+    return all;
   }
   /// A snapshot waits for the duties of all axes.
-  void show_snapshot() {
-    bool any = false, all = true;
+  void show_axes() {
+    const unsigned now = duties();
     for (std::size_t n = 0; n < N; ++n) {
-      const bool valid = cores_[n].out().snapshot_valid;
-      any |= valid;
-      all &= valid || done_[n];
+      out_.axis[n] = cores_[n].out();
+      out_.axis[n].snapshot_valid = now != 0 && (duties_ | now) == kAll;
     }
-    for (std::size_t n = 0; n < N; ++n) out_.axis[n].snapshot_valid = any && all;
+  }
+  /// What the cores sample in the clock `ahead` clocks from now.
+  Taken take(const In& in, int ahead) {
+    Taken t{glue_.program(in, ahead), {}};
+    for (std::size_t n = 1; n < N; ++n) t.waits[n] = t.waits[n - 1] || cores_[n - 1].testing();
+    return t;
   }
 
   /// Advances from event to event, at most to the end of the tick, towards clock `clocks` of run(),
@@ -167,25 +157,25 @@ class FeltgateAxes {
       }
       if (to == from) return 0;
     }
-    if (N > 1 && to - from != tick) return 0;
-    if (!apart(each, to == tick)) return 0;
-    const bool takes = from <= kTakes && kTakes < to;
+    if (!in_step() || !apart(each, to == tick)) return 0;
+    const bool samples = from <= kSample && kSample < to;
     const bool measures = from <= kMeasured && kMeasured < to;
     if (measures && !glue_.may_tick(kMeasured - from)) return 0;
-    for (std::size_t n = 0; n < N; ++n) {
-      if (takes && !taken_[n].holds(each[n])) return 0;
+    if (samples) {
+      const Taken now = take(in, kSample - from);
+      if (now.program.late != taken_.program.late) return 0;
+      taken_ = now;
+      give_taken(each);
     }
-    if (takes) glue_.torques(kTakes - from, each);
+    if (to == tick) {
+      duties_ = 0;
+    } else if (to > cores_[0].duty_clock()) {
+      duties_ = kAll;
+    }
     for (std::size_t n = 0; n < N; ++n) {
-      if (takes) {
-        taken_[n].take(each[n]);
-      } else {
-        taken_[n].give(each[n]);
-      }
       cores_[n].run(each[n], to - from, [&, n] {
         out_.axis[n] = cores_[n].out();
         *snapshot = true;
-        if (n == 0) watcher.words();  // once the tick is over they belong to the next
       });
     }
     if (measures) glue_.tick(kMeasured - from, cores_);
@@ -217,11 +207,25 @@ class FeltgateAxes {
         each[n].axis_silent |= !core.arm_request(each[other]);
         each[n].axis_blocked |= !core.ready();
         each[n].axis_testing |= core.testing();
-        each[n].axis_waits |= other < n && core.testing();
       }
     }
+    give_taken(each);
     glue_.give(in, cores_, each);
     return each;
+  }
+  void give_taken(std::array<CoreIn, N>& each) const {
+    for (std::size_t n = 0; n < N; ++n) {
+      each[n].law_torque = taken_.program.torque[n];
+      each[n].law_late = taken_.program.late;
+      each[n].axis_waits = taken_.waits[n];
+    }
+  }
+
+  /// Whether the duties of all axes are new in one clock, with an engine that of a program's torque.
+  bool in_step() const {
+    const int clock = WithEngine ? Core::law_duty_clock : cores_[0].duty_clock();
+    return std::all_of(cores_.begin(), cores_.end(),
+                       [clock](const Core& core) { return core.duty_clock() == clock; });
   }
 
   /// Whether no axis affects the others before the tick ends: no gates close, and, if the stretch
@@ -250,19 +254,18 @@ class FeltgateAxes {
   void show(const In& in) {
     out_.reg_rdata = 0;
     out_.reg_busy = false;
+    show_axes();
     for (std::size_t n = 0; n < N; ++n) {
-      out_.axis[n] = cores_[n].out();
       out_.reg_rdata |= out_.axis[n].reg_rdata;
       out_.reg_busy |= addressed(n, in.reg_addr) && out_.axis[n].reg_busy;
     }
-    show_snapshot();
     glue_.show(in, out_);
   }
 
   std::array<Core, N> cores_;
   Glue glue_;
-  std::array<Taken, N> taken_{};
-  std::array<bool, N> done_{};  ///< its duty of this tick is there
+  Taken taken_;
+  unsigned duties_ = 0;  ///< axes whose duty is of this tick, by bit
   Out out_;
 };
 

@@ -42,10 +42,13 @@ class FeltgateCore {
   using In = CoreIn;
   using Out = CoreOut;
 
-  /// The clocks of a tick in which the position is sampled, and in which velocity and tau_hat are
-  /// new.
+  /// The clocks of a tick in which the position is sampled, velocity and tau_hat are new, and the
+  /// duty of a program's torque.
   static constexpr int sample_clock = axis::TickCounter::sample_clock;
+  static constexpr int velocity_clock = axis::Axis::velocity_clock;
   static constexpr int measured_clock = axis::Axis::measured_clock;
+  static constexpr int law_duty_clock =
+      velocity_clock + axis::Scene<axis::Fixed>::usual_latency + axis::Axis::duty_after_scene;
 
   FeltgateCore() { reset(); }
 
@@ -171,6 +174,8 @@ class FeltgateCore {
   bool at_rest() const { return axis_.blocks().host.registers.rests(false, false); }
   /// Register writes carried out so far.
   std::int64_t writes() const { return writes_; }
+  /// The clock of a tick in which the duty is new, in the scene of this tick.
+  int duty_clock() const { return axis_.duty_clock(); }
   /// The next clock's number in its tick, 0 .. clocks_per_tick - 1.
   int clock_of_tick() const { return axis_.clock_of_tick(); }
 
@@ -215,6 +220,8 @@ class FeltgateCore {
       using axis::TickCounter;
       const axis::Axis::In begin{encoder_.out(), bridge_.out(), in};
       if (!axis_.ordinary(begin)) return false;
+      // M/T counts the clocks from edge to edge.
+      if (axis_.laws().spans.used && !encoder_.calm(in, axis_.encoder())) return false;
       const axis::Position* sampled =
           encoder_.still(in.encoder)
               ? encoder_.tick(axis_.blocks().ticks.count)
@@ -222,8 +229,10 @@ class FeltgateCore {
       axis::Drive drive = axis_.drive({}, axis_.gates_clear(begin), false);
       const axis::Position& position = sampled != nullptr ? *sampled : encoder_.out();
       const axis::Axis::In to_axis{position, bridge_.out(), in};
+      // M/T counts the clocks from edge to edge.
+      const bool edges = sampled != &encoder_.out() && axis_.laws().spans.used;
       axis::Values v;
-      if (sampled == nullptr || !axis_.tick(to_axis, v)) {
+      if (sampled == nullptr || edges || !axis_.tick(to_axis, v)) {
         encoder_.undo();
         ++thrown_;
         return false;

@@ -9,6 +9,7 @@
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "feltgate/generated/link.hpp"
@@ -34,8 +35,12 @@ class LinkCapture {
   };
   enum class State : std::uint8_t { idle, fill, wait, rest, done };
 
-  /// Also removes all rows.
-  void reset() { *this = LinkCapture(); }
+  /// Also removes all rows; the memory keeps its words.
+  void reset() {
+    std::vector<std::uint32_t> memory = std::move(memory_);
+    *this = LinkCapture();
+    memory_ = std::move(memory);
+  }
   const Out& out() const { return out_; }
   State state() const { return state_; }
   /// Whether a capture is in progress.

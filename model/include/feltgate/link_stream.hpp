@@ -33,7 +33,12 @@ class LinkStream {
     bool last = false;
   };
 
-  void reset() { *this = LinkStream(); }
+  /// The memory keeps its words.
+  void reset() {
+    const auto words = tick_;
+    *this = LinkStream();
+    tick_ = words;
+  }
   const Out& out() const { return out_; }
 
   void clock(const In& in) {

@@ -116,7 +116,7 @@ class TwinBackend : public ClockedBackend {
 /// kind.
 template <class D>
 std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
-  if constexpr (measures_spans<D>) {
+  if constexpr (D::mt_counts != 0) {
     throw std::invalid_argument("chain \"" + kind + "\" of design " + D::name +
                                 ": M/T needs the clocks of the edges, which a chain by ticks does "
                                 "not have; choose the back-ends rtl,twin");

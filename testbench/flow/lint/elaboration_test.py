@@ -54,7 +54,6 @@ BAD = (
     ("core", "VELOCITY_SHIFT", 10, "the_velocity_must_have_room_for_its_counts"),
     ("core", "VELOCITY_DIFFERENCE_W", 34, "the_widths_of_a_lowpass_must_nest"),
     ("core", "DUTY_W", 14, "DUTY_must_be_the_13_bits_of_the_bridge"),
-    ("velocity_mt", "VELOCITY_F", 39, "the_time_stamps_must_hold_the_window"),
     ("current_sense", "CLOCK_HZ", 39_000_000, "an_over_current_must_be_latched_within_5_us_and"),
     ("absolute_encoder", "HalfClocks", 3, "a_parameter_is_out_of_its_range"),
     ("commutation", "Period", 999, "PERIOD_must_be_even_and_4_to_4094_and_MODULATION_0_or_1"),
@@ -63,13 +62,13 @@ BAD = (
 )
 WHOLE = "FELTGATE_WHOLE" in os.environ  # not a share of them
 TOPS = {"core": "feltgate_core", "checks": "feltgate_checks", "sequencer": "sequencer",
-        "velocity_mt": "velocity_mt", "current_sense": "current_sense",
+        "current_sense": "current_sense",
         "absolute_encoder": "absolute_encoder", "commutation": "commutation",
         "field_oriented": "field_oriented", "pwm_three_phase": "pwm_three_phase"}
 
 
 def rtl_of(top):
-    if top not in ("core", "velocity_mt"):
+    if top != "core":
         return list(RTL.glob(f"core/**/{TOPS[top]}.sv"))
     listed = (RTL / "feltgate_core.f").read_text(encoding="utf-8").splitlines()
     return [RTL / n for n in listed if n and not n.startswith("//") and "_pkg" not in n]

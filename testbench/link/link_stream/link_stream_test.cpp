@@ -140,7 +140,7 @@ std::vector<Frame> play(const Stimulus& stimulus, std::int64_t clocks) {
 TEST_CASE("link_stream: random ticks, registers, transmitters and resets") {
   std::vector<std::vector<std::uint8_t>> raw;
   Bench bench("link_stream", 1);
-  bench.run(Stimulus{Random(2), TickWords(3)}, scaled_clocks(600'000), {40'000}, Frames{&raw, {}});
+  bench.run(Stimulus{Random(2), TickWords(3)}, scaled_clocks(600'000), {}, Frames{&raw, {}});
   bench.run(Stimulus{Random(14), TickWords(15, false, true)}, scaled_clocks(400'000), {40'000});
   REQUIRE(raw.size() > 1000);
   std::set<unsigned> masks;

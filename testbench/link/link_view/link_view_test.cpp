@@ -89,11 +89,12 @@ struct Stimulus {
 
 }  // namespace
 
-TEST_CASE("link_view: random words, events, choices and resets") {
+// The device around it has the same reset, so no words come amid one: the runs have that at the start.
+TEST_CASE("link_view: random words, events and choices") {
   Bench bench("link_view", 1);
-  bench.run(Stimulus(2, false, false, true), scaled_clocks(400'000), {40'000});
-  bench.run(Stimulus(4, true, false, true), scaled_clocks(200'000), {40'000});
-  bench.run(Stimulus(6, false, true, true), scaled_clocks(300'000), {40'000});
+  bench.run(Stimulus(2, false, false, true), scaled_clocks(400'000));
+  bench.run(Stimulus(4, true, false, true), scaled_clocks(200'000));
+  bench.run(Stimulus(6, false, true, true), scaled_clocks(300'000));
 }
 
 TEST_CASE("link_view: the chosen words of one tick") {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "feltgate/axis/host.hpp"
@@ -48,6 +49,7 @@ class Axis {
     bool testing = false;  ///< another axis runs its self-test, at the sample
     bool limit_hold = false;
     TravelWindow window;
+    SpanMeter::State spans;  ///< of M/T, in place of the window
     Clocked<VelocityEstimator<Fixed>> velocity;
     Clocked<Observer<Fixed>> observer;
     Clocked<Scene<Fixed>> scene;
@@ -62,11 +64,14 @@ class Axis {
   static constexpr int velocity_clock =
       TickCounter::sample_clock + VelocityEstimator<Fixed>::latency;
   static constexpr int measured_clock = velocity_clock + Observer<Fixed>::latency;
+  /// From a scene's torque to the duty.
+  static constexpr int duty_after_scene = Ramp<Fixed>::latency + TorqueLaw<Fixed>::latency;
 
   explicit Axis(const Design& d)
       : laws_(std::make_shared<const Laws>(d)),
         formats_(std::make_shared<const WordFormats>(d)),
         line_(static_cast<std::size_t>(laws_->m1)),
+        stamps_(laws_->spans.places),
         params_(d, *formats_) {
     q_.safety.heat_sum = laws_->heat.start;
     q_.host.registers.control.word = laws_->control_reset;
@@ -113,8 +118,10 @@ class Axis {
 
     // The position at the beginning of a tick.
     if (tick.sample) sample(in, safe.derated);
+    const auto travel = static_cast<std::int16_t>(in.position.travel);
+    if (laws.spans.used) laws.spans.clock(q_.spans, stamps_.data(), travel, tick.sample);
     q_.velocity.clock(tick.sample, [&] {
-      const auto travel = static_cast<std::int16_t>(in.position.travel);
+      if (laws.spans.used) return laws.velocity.tick(q_.velocity.state, p, q_.spans);
       const std::int16_t counts = q_.window.counts(travel);
       q_.window.tick(line_.data(), laws.m1, travel);
       return laws.velocity.tick(q_.velocity.state, p, counts);
@@ -150,8 +157,7 @@ class Axis {
 
   /// The clock of a tick in which the duty is new.
   int duty_clock() const {
-    return velocity_clock + laws_->scene.latency(q_.host.scene) + laws_->ramp.latency +
-           laws_->torque.latency;
+    return velocity_clock + laws_->scene.latency(q_.host.scene) + duty_after_scene;
   }
   /// A tick begins that tick() may take: nothing is written, nothing trips in every clock, and all
   /// words of the snapshot are there before its end.
@@ -180,7 +186,13 @@ class Axis {
     std::int64_t heat_sum = safety.heat_sum;
     const bool hot = laws.heat.heat(heat_sum, p, armed, heat.current);
     const auto travel = static_cast<std::int16_t>(in.position.travel);
-    const auto speed = laws.velocity.tick(q_.velocity.state, p, q_.window.counts(travel));
+    std::optional<SpanMeter::State> spans;
+    if (laws.spans.used) {
+      spans = q_.spans;
+      laws.spans.tick(*spans, stamps_.data(), travel, laws.clocks_per_tick);
+    }
+    const auto speed = spans ? laws.velocity.tick(q_.velocity.state, p, *spans)
+                             : laws.velocity.tick(q_.velocity.state, p, q_.window.counts(travel));
     const auto fast = laws.overspeed.tick(safety.overspeed.state, p, speed.velocity);
     const auto polarity =
         laws.polarity.tick(safety.polarity, p, open, speed.velocity, torque.current);
@@ -199,7 +211,11 @@ class Axis {
     }
 
     sample(in, safety.hold.derated);
-    q_.window.tick(line_.data(), laws.m1, travel);
+    if (spans) {
+      q_.spans = *spans;
+    } else {
+      q_.window.tick(line_.data(), laws.m1, travel);
+    }
     q_.velocity.tick() = speed;
     safety.heat.tick() = heat;
     safety.heat_sum = heat_sum;
@@ -241,10 +257,11 @@ class Axis {
   bool may_trip(const In& in) const {
     const Laws& laws = *laws_;
     const P& p = params_.p;
-    const auto counts = q_.window.counts(static_cast<std::int16_t>(in.position.travel));
+    const auto travel = static_cast<std::int16_t>(in.position.travel);
+    const std::int64_t raw =
+        laws.spans.used ? q_.spans.size : laws.velocity.speed(q_.window.counts(travel));
     return !ordinary(in) || q_.safety.self_test.busy(q_.safety.arming.armed()) ||
-           q_.safety.near(laws, p, q_.velocity.state.velocity) ||
-           Fixed::beyond(laws.velocity.speed(counts), p.overspeed);
+           q_.safety.near(laws, p, q_.velocity.state.velocity) || Fixed::beyond(raw, p.overspeed);
   }
 
   /// A clock with the reset. What has none: the parameters, the motor's heat, the stop latch.
@@ -385,7 +402,8 @@ class Axis {
   }
   std::shared_ptr<const Laws> laws_;
   std::shared_ptr<const WordFormats> formats_;
-  std::vector<std::int16_t> line_;  ///< of the travel's window
+  std::vector<std::int16_t> line_;     ///< of the travel's window
+  std::vector<std::uint32_t> stamps_;  ///< of the edges, for M/T
   ParamsMemory params_;
   Snapshot::Memory bank_{};
   Blocks q_;

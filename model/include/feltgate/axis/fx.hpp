@@ -64,6 +64,8 @@ struct Fixed {
   static T scale_sticky(T x, int drop) {
     return (x >> drop) | ((x & ((T{1} << drop) - 1)) != 0 ? 1 : 0);
   }
+  /// x does not fit a signed format of so many bits.
+  static bool overflows(T x, const Bits& b) { return x < b.least || x > b.most; }
   /// The nearest value of a signed format of so many bits.
   static T saturate(T x, const Bits& b) { return x < b.least ? b.least : x > b.most ? b.most : x; }
   /// |x| > limit.
@@ -87,6 +89,7 @@ struct Real {
   static T add_rounded(T y, T x, const Drop&) { return y + x; }
   static T scale(T x, const Exponent&) { return x; }
   static T scale_sticky(T x, int) { return x; }
+  static bool overflows(T, const Bits&) { return false; }
   static T saturate(T x, const Bits&) { return x; }
   static bool beyond(T x, T limit) { return x > limit || x < -limit; }
   static T limited(T x, T limit) { return x > limit ? limit : x < -limit ? -limit : x; }

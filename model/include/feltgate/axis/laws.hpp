@@ -22,6 +22,7 @@ namespace feltgate::axis {
 struct Laws {
   explicit Laws(const Design& d)
       : velocity(d),
+        spans(d),
         observer(d),
         scene(d),
         ramp(d),
@@ -39,6 +40,7 @@ struct Laws {
         control_reset(static_cast<std::uint32_t>(d["CONTROL_RESET"])) {}
 
   VelocityEstimator<Fixed> velocity;
+  SpanMeter spans;
   Observer<Fixed> observer;
   Scene<Fixed> scene;
   Ramp<Fixed> ramp;

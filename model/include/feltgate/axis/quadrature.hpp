@@ -53,10 +53,15 @@ class Quadrature {
   /// A tick of `clocks` clocks as a whole, with these pins: the position that is sampled in it.
   /// Null where something out of the ordinary happens: a trip, an index, a wrong edge.
   const Position* tick(const Pins& pins, const Encoder& e, int sample_clock, int clocks) {
-    monitor_before_ = monitor_;
-    moved_ = true;
     const QuadDecoder::In in = at(pins.encoder, e);
+    if (decoder_.settled(in)) {
+      still_pins_ = pins.encoder;
+      still_ = true;
+      return tick(e.tick_count);
+    }
+    monitor_before_ = monitor_;
     decoder_before_ = decoder_;
+    moved_ = true;
     still_ = false;
     int c = 0;
     while (c < sample_clock && !decoder_.settled(in)) {

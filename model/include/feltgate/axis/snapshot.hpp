@@ -15,6 +15,11 @@ class Snapshot {
  public:
   using Memory = std::array<std::uint32_t, 128>;
   static constexpr int words = 12, early = 9;
+  /// The words in the order of writing.
+  static constexpr int places[words] = {Map::R::tick,    Map::R::position, Map::R::faults,
+                                        Map::R::encoder, Map::R::index,    Map::R::velocity,
+                                        Map::R::tau_hat, Map::R::tau_ref,  Map::R::current_ref,
+                                        Map::R::voltage, Map::R::duty,     Map::R::status};
   SnapshotWord word;
   std::uint32_t read_data() const { return read_data_; }
 
@@ -86,11 +91,6 @@ class Snapshot {
   static std::size_t place(bool bank, int place) {
     return static_cast<std::size_t>((bank ? 64 : 0) + place);
   }
-  /// The words in the order of writing.
-  static constexpr int places[words] = {Map::R::tick,    Map::R::position, Map::R::faults,
-                                        Map::R::encoder, Map::R::index,    Map::R::velocity,
-                                        Map::R::tau_hat, Map::R::tau_ref,  Map::R::current_ref,
-                                        Map::R::voltage, Map::R::duty,     Map::R::status};
   static std::uint32_t value(int n, const Values& v) {
     const std::int64_t data[words] = {v.tick,    v.position, v.faults,  v.encoder,
                                       v.index,   v.velocity, v.tau_hat, v.tau_ref,

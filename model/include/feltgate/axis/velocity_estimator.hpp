@@ -6,6 +6,7 @@
 // docs/blocks/velocity.md
 #pragma once
 
+#include "feltgate/axis/span_meter.hpp"
 #include "feltgate/axis/words.hpp"
 
 namespace feltgate::axis {
@@ -47,6 +48,7 @@ struct VelocityEstimator {
                  (d["VELOCITY_GAIN"] == 0 ? d["VELOCITY_SHIFT"] : -d["VELOCITY_GAIN_F"])),
         w(d["VELOCITY_W"]),
         f(d["VELOCITY_F"]),
+        slow(d["VELOCITY_W"] + std::min(0, 18 - d["P_VELOCITY_A1_F"])),
         a1(d["P_VELOCITY_A1_F"], d.rounding()) {}
 
   /// Before the low-pass, not yet saturated.
@@ -57,6 +59,13 @@ struct VelocityEstimator {
     const T speed = this->speed(counts), raw = N::saturate(speed, w);
     return {N::add_rounded(s.velocity, (raw - s.velocity) * p.velocity_a1, a1), raw != speed};
   }
+  /// By M/T, as rtl/options/mt/velocity_estimator.sv: at a standstill without the low-pass, if that
+  /// step is none that Overspeed takes for broken hardware.
+  State tick(const State& s, const Words<T>& p, const SpanMeter::State& spans) const {
+    const T raw = N::integer(spans.raw, 0, f);
+    if (spans.still && N::saturate(s.velocity, slow) == s.velocity) return {raw, spans.saturated};
+    return {N::add_rounded(s.velocity, (raw - s.velocity) * p.velocity_a1, a1), spans.saturated};
+  }
   template <class At>
   static void show(const At& a, const State& from, State& to) {
     if (a.at(0)) to.saturated = from.saturated;
@@ -66,6 +75,7 @@ struct VelocityEstimator {
   int gain, exponent;
   Bits w;
   int f;
+  Bits slow;
   Drop a1;
 };
 

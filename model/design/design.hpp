@@ -26,11 +26,6 @@ class TomlReader;
 
 namespace feltgate::design {
 
-/// The table of an absolute encoder.
-using Corrections = std::array<std::int16_t, 1 << Map::absolute_segment_bits>;
-/// The sum of harmonics at an angle: cosine 1, sine 1, cosine 2, ...
-double harmonics(const std::vector<double>& terms, double angle_rad);
-
 /// The numbers of a design file; units are in the names.
 struct Design {
   std::string name, path, description;
@@ -85,8 +80,6 @@ struct Design {
   bool absolute = false;
   int absolute_framing = 0, absolute_bits = 0, absolute_diagnosis = 0;
   double absolute_serial_hz = 0, absolute_gap_s = 0, absolute_period_s = 0;
-  /// What the sensor shows beyond the angle: cosine 1, sine 1, cosine 2, ... of a turn; empty: 0.
-  std::vector<double> absolute_error_mrad;
   // [commutation], with [pwm] phases = 3: three legs turn the voltage with the motor.
   int phases = 2;  ///< legs of the bridge
   int pole_pairs = 0;
@@ -125,10 +118,6 @@ struct Design {
   AbsoluteEncoder::Parameters absolute_parameters() const;
   int absolute_period_ticks() const;  ///< from reading to reading
   int absolute_delay_ticks() const;   ///< from the angle to the tick that has it
-  bool absolute_table() const { return !absolute_error_mrad.empty(); }
-  /// What is added to a reading at even angles of a turn, in 2^-absolute_entry_bits turn; all 0
-  /// without a table.
-  Corrections absolute_corrections() const;
   /// Clock of the PWM period in which the window of its current begins: the window's middle is that
   /// of the pulse at the terminals.
   int current_strobe_clock() const;

@@ -173,11 +173,10 @@ std::vector<Constant> of_current_loop(const Elaborated& e) {
 /// Words of the absolute encoder; 0 without it.
 std::vector<Constant> of_absolute_encoder(const Design& d) {
   const AbsoluteEncoder::Parameters p =
-      d.absolute ? d.absolute_parameters()
-                 : AbsoluteEncoder::Parameters{0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+      d.absolute ? d.absolute_parameters() : AbsoluteEncoder::Parameters{0, 0, 0, 0, 0, 0, 0, 0, 0};
   return {
       {"absolute_encoder", d.absolute ? 1 : 0, "1: the position is of an absolute encoder"},
-      {"absolute_framing", p.framing, "0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C"},
+      {"absolute_framing", p.framing, "0 SPI with parity, 1 SSI with CRC-6"},
       {"absolute_bits", p.bits, "of a turn"},
       {"absolute_half_clocks", p.half_clocks, "clocks: half a serial clock"},
       {"absolute_gap_clocks", p.gap_clocks, "clocks before the serial clock and between readings"},
@@ -199,10 +198,9 @@ bool as_of_4096_counts(const Design& d) {
   return d.edge_unit_bits() == 6 && !d.fast_edges() && d.self_test_drop() == 0;
 }
 
-/// Table against its error, and Hall lines; not in the CRC of designs without them.
+/// Hall lines; not in the CRC of designs without them.
 std::vector<Constant> of_angle(const Design& d) {
-  return {{"absolute_table", d.absolute_table() ? 1 : 0, "1: readings are corrected by a table"},
-          {"hall", d.hall ? 1 : 0, "1: Hall lines give the electrical angle at power-up"}};
+  return {{"hall", d.hall ? 1 : 0, "1: Hall lines give the electrical angle at power-up"}};
 }
 
 std::vector<Constant> of_phases(const Design& d) {
@@ -243,11 +241,6 @@ std::uint32_t design_crc(const Elaborated& e) {
   if (e.design.absolute) add(of_absolute_encoder(e.design));
   if (e.design.phases == 3) add(of_phases(e.design));
   if (e.design.hall) text += "hall 1\n";
-  if (e.design.absolute_table()) {
-    for (const int correction : e.design.absolute_corrections()) {
-      text += fmt::format("correction {}\n", correction);
-    }
-  }
   for (const auto& [name, f] : named_formats(e.formats)) {
     text += fmt::format("{} {} {} {}\n", name, f.sign, f.integer, f.fraction);
   }
@@ -291,14 +284,6 @@ std::string header_with(const Elaborated& e, const std::string& sum_line) {
       "design\n",
       design_crc(e));
   s << sum_line;
-  if (d.absolute_table()) {
-    s << "\n  /// What is added to an absolute encoder's reading, 2^-20 turn.\n"
-      << "  static constexpr std::int16_t absolute_corrections[" << Corrections{}.size() << "] = {";
-    const auto table = d.absolute_corrections();
-    for (std::size_t k = 0; k < table.size(); ++k) {
-      s << (k % 16 == 0 ? "\n      " : " ") << table[k] << (k + 1 < table.size() ? "," : "};\n");
-    }
-  }
   s << "\n  /// Formats of the parameters.\n  struct P {\n";
   for (const Word& w : e.words) {
     s << "    static constexpr Format " << w.parameter.name << triple(w.format) << ";\n";

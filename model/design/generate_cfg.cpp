@@ -253,21 +253,6 @@ void resets_sv(std::ostream& s, const Elaborated& e) {
   s << "      default: parameter_reset = 32'd0;\n    endcase\n  endfunction\n";
 }
 
-void corrections_sv(std::ostream& s, const Design& d) {
-  s << "\n  // What is added to an absolute encoder's reading, 2^-20 turn.\n"
-    << "  function automatic logic [15:0] absolute_correction(input logic ["
-    << Map::absolute_segment_bits - 1 << ":0] part);\n"
-    << "    case (part)\n";
-  if (d.absolute_table()) {
-    const auto table = d.absolute_corrections();
-    for (std::size_t k = 0; k < table.size(); ++k) {
-      s << "      " << Map::absolute_segment_bits << "'d" << k << ": absolute_correction = 16'd"
-        << static_cast<std::uint16_t>(table[k]) << ";\n";
-    }
-  }
-  s << "      default: absolute_correction = 16'd0;\n    endcase\n  endfunction\n";
-}
-
 /// Whether a word has a sign, and the bits above its format. Words of 32 bits fit as they are.
 void above_sv(std::ostream& s, const Elaborated& e) {
   s << "\n  // Whether a parameter has a sign, and the bits above its format.\n"
@@ -373,10 +358,6 @@ axis::Design as_data(const Elaborated& e) {
     d.words.push_back({w.parameter.name, w.parameter.address, f.width(), f.sign == 1, f.fraction,
                        static_cast<std::uint32_t>(w.raw)});
   }
-  if (e.design.absolute_table()) {
-    const Corrections table = e.design.absolute_corrections();
-    d.absolute_corrections.assign(table.begin(), table.end());
-  }
   return d;
 }
 
@@ -391,7 +372,6 @@ std::string cfg_package(const Elaborated& e) {
   for (const Constant& c : cfg_constants(e)) constant_sv(s, e, c);
   resets_sv(s, e);
   above_sv(s, e);
-  if (e.design.absolute) corrections_sv(s, e.design);
   params_sv(s, e);
   for (const Struct& t : structs) struct_sv(s, e, t);
   control_sv(s, e.registers);

@@ -31,8 +31,6 @@ package map;
   localparam int KICKLESS_BITS = 24;  // bits of the longest time without a kick [tick]
   localparam int ARM_WAIT_MS = 20;  // for so long a request to arm may wait until the gates open [ms]; then it is refused
   localparam int ABSOLUTE_JUMP_BIT = 3;  // of faults.absolute: the angle has jumped
-  localparam int ABSOLUTE_ENTRY_BITS = 20;  // a correction of an absolute encoder's table is in steps of a turn / 2^20
-  localparam int ABSOLUTE_SEGMENT_BITS = 8;  // its table has 2^8 corrections over a turn
   localparam int ONE_CHANNEL_EDGES = 16;  // edges of one channel in a row from which it is chatter or a dead channel
   localparam int DEAD_CHANNEL_EDGES = 24;  // as many are a dead channel
   localparam int EDGE_UNITS = 19;  // so many times 2^EDGE_UNIT_BITS ticks (of the design) without an edge end the row

@@ -150,7 +150,7 @@ void KnobLoop::step() {
 }
 
 void KnobLoop::tick(double theta_rad) {
-  const int latency =
+  static const int latency =
       absolute_parameters<GimbalMotor>().reading_clocks() / GimbalMotor::clocks_per_tick + 1;
   const auto of_reading = ticks_ % GimbalMotor::absolute_period;
   if (of_reading == 0) {

@@ -48,14 +48,13 @@ package cfg;
   localparam int DRIVER_FAULT = 1;  // 1: the driver tells of its faults
   localparam int HEARTBEAT = 512;  // ticks between changes of the pin for a watchdog outside, a power of two; 0: no pin
   localparam int ABSOLUTE_ENCODER = 1;  // 1: the position is of an absolute encoder
-  localparam int ABSOLUTE_FRAMING = 1;  // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
+  localparam int ABSOLUTE_FRAMING = 1;  // 0 SPI with parity, 1 SSI with CRC-6
   localparam int ABSOLUTE_BITS = 14;  // of a turn
   localparam int ABSOLUTE_HALF_CLOCKS = 5;  // clocks: half a serial clock
   localparam int ABSOLUTE_GAP_CLOCKS = 20;  // clocks before the serial clock and between readings
   localparam int ABSOLUTE_PERIOD = 96;  // ticks from reading to reading
   localparam int ABSOLUTE_JUMP_STEP = 28;  // counts of the fastest motion in a reading
   localparam int ABSOLUTE_DIAGNOSIS = 0;  // SPI: address of the diagnosis
-  localparam int ABSOLUTE_TABLE = 0;  // 1: readings are corrected by a table
   localparam int HALL = 0;  // 1: Hall lines give the electrical angle at power-up
   localparam int PHASES = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
@@ -277,13 +276,6 @@ package cfg;
       9'd290: parameter_above = {1'd0, 32'hfffe0000};  // wall_stiffness
       9'd298: parameter_above = {1'd0, 32'hfffe0000};  // wall_damping
       default: parameter_above = 33'd0;
-    endcase
-  endfunction
-
-  // What is added to an absolute encoder's reading, 2^-20 turn.
-  function automatic logic [15:0] absolute_correction(input logic [7:0] part);
-    case (part)
-      default: absolute_correction = 16'd0;
     endcase
   endfunction
 

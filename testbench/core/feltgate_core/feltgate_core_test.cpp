@@ -38,7 +38,6 @@ constexpr Lives kLives = D::hall != 0                ? Lives{9, 3, 1'200'000}
                          : kLoop && D::phases == 3   ? Lives{17, 2, 2'000'000}
                          : kLoop                     ? Lives{0, 2, 2'000'000}
                          : !kEdges && D::phases == 3 ? Lives{4, 2, 1'500'000}
-                         : D::absolute_table != 0    ? Lives{13, 5, 1'000'000}
                          : !kEdges                   ? Lives{13, 3, 1'000'000}
                          : D::clocks_per_tick > 50   ? Lives{9, 4, 3'000'000}
                                                      : Lives{9, kPrograms ? 6 : 4, 1'500'000};

@@ -31,7 +31,6 @@ struct Word {
 struct Design {
   std::map<std::string, std::int64_t, std::less<>> constants;
   std::vector<Word> words;
-  std::vector<std::int16_t> absolute_corrections;  ///< 2^-20 turn; empty: no table
 
   /// The constant of this name, e.g. "VELOCITY_F"; throws if there is none.
   int operator[](std::string_view name) const { return static_cast<int>(wide(name)); }
@@ -51,10 +50,6 @@ struct Design {
     for (const auto& p : D::parameters) {
       d.words.push_back({p.name, p.address, p.field.width(), p.field.sign == 1, p.field.fraction,
                          static_cast<std::uint32_t>(p.raw)});
-    }
-    if constexpr (D::absolute_table != 0) {
-      d.absolute_corrections.assign(std::begin(D::absolute_corrections),
-                                    std::end(D::absolute_corrections));
     }
     return d;
   }

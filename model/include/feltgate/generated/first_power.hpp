@@ -60,19 +60,18 @@ struct FirstPower {
   static constexpr int driver_fault = 0;  // 1: the driver tells of its faults
   static constexpr int heartbeat = 0;  // ticks between changes of the pin for a watchdog outside, a power of two; 0: no pin
   static constexpr int absolute_encoder = 0;  // 1: the position is of an absolute encoder
-  static constexpr int absolute_framing = 0;  // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
+  static constexpr int absolute_framing = 0;  // 0 SPI with parity, 1 SSI with CRC-6
   static constexpr int absolute_bits = 0;  // of a turn
   static constexpr int absolute_half_clocks = 0;  // clocks: half a serial clock
   static constexpr int absolute_gap_clocks = 0;  // clocks before the serial clock and between readings
   static constexpr int absolute_period = 0;  // ticks from reading to reading
   static constexpr int absolute_jump_step = 0;  // counts of the fastest motion in a reading
   static constexpr int absolute_diagnosis = 0;  // SPI: address of the diagnosis
-  static constexpr int absolute_table = 0;  // 1: readings are corrected by a table
   static constexpr int hall = 0;  // 1: Hall lines give the electrical angle at power-up
   static constexpr int phases = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
   static constexpr std::uint32_t design_crc = 0xaf012bd5;  // by which a host knows the design
-  static constexpr std::uint32_t file_sum = 0x5719b0f8;  // by which a program notices that the file has changed
+  static constexpr std::uint32_t file_sum = 0x6d7354c0;  // by which a program notices that the file has changed
 
   /// Formats of the parameters.
   struct P {
@@ -321,7 +320,6 @@ struct FirstPower {
       {"ABSOLUTE_PERIOD", 0},
       {"ABSOLUTE_JUMP_STEP", 0},
       {"ABSOLUTE_DIAGNOSIS", 0},
-      {"ABSOLUTE_TABLE", 0},
       {"HALL", 0},
       {"PHASES", 2},
       {"ROUNDING", 0},

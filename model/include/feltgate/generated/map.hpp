@@ -36,8 +36,6 @@ struct Map {
   static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]
   static constexpr int arm_wait_ms = 20;  ///< for so long a request to arm may wait until the gates open [ms]; then it is refused
   static constexpr int absolute_jump_bit = 3;  ///< of faults.absolute: the angle has jumped
-  static constexpr int absolute_entry_bits = 20;  ///< a correction of an absolute encoder's table is in steps of a turn / 2^20
-  static constexpr int absolute_segment_bits = 8;  ///< its table has 2^8 corrections over a turn
   static constexpr int one_channel_edges = 16;  ///< edges of one channel in a row from which it is chatter or a dead channel
   static constexpr int dead_channel_edges = 24;  ///< as many are a dead channel
   static constexpr int edge_units = 19;  ///< so many times 2^EDGE_UNIT_BITS ticks (of the design) without an edge end the row

@@ -115,6 +115,10 @@ std::string map_package(const RegisterMap& map) {
   for (const Snapshot& n : map.snapshots) {
     s << fmt::format("  localparam logic [5:0] S_{} = 6'd{};\n", upper(n.name), n.slot);
   }
+  s << "\n  // Addresses of the parameters.\n";
+  for (const Parameter& p : map.parameters) {
+    s << fmt::format("  localparam logic [11:0] A_{} = 12'h{:03x};\n", upper(p.name), p.address);
+  }
   numbers_sv(s, map);
   s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
   return s.str();

@@ -45,7 +45,7 @@ std::string register_page(const Elaborated& e) {
                                  [&](const Word& w) { return w.parameter.name == p.name; });
     const bool built = at != e.words.end();
     s << "| " << hex(p.address) << " | `" << p.name << "` | " << (p.scene.empty() ? "all" : p.scene)
-      << " | " << (built ? format_text(at->format) : "") << " | " << p.unit << " | "
+      << " | " << (built ? format_text(at->field()) : "") << " | " << p.unit << " | "
       << (built ? fmt::format("{:.7g}", at->si) : "no such word") << " | " << p.while_armed << " | "
       << p.doc << " |\n";
   }

@@ -83,7 +83,7 @@ def sources_digest():
         paths += [ROOT / "model/studies/explore/point_main.cpp", Path(__file__)]
         paths += [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
         paths = [p for p in paths if "generated" not in p.parts]
-        paths += [ROOT / "rtl/generated/feltgate_map_pkg.sv"]
+        paths += [ROOT / "rtl/generated/map.sv"]
         paths += [ROOT / "model/include/feltgate/generated" / name for name in ("map.hpp", "causes.hpp")]
         for path in sorted(paths):
             digest.update(path.read_bytes())

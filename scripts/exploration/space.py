@@ -20,9 +20,7 @@ from command_line import Refused
 # Keys that a design may leave out, with what it then means.
 OPTIONAL = {
     "velocity.gain": None,
-    "formats.coefficient_bits": 17,
     "formats.rounding": "half_up",
-    "fabric.multipliers": "shared",
 }
 # A register carries these: points that differ in nothing else can share one built structure.
 CARRIED = ("velocity.cutoff_rad_s", "observer.cutoff_rad_s")

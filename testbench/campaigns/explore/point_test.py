@@ -30,9 +30,7 @@ COARSE = {
     "formats.current": [1, 5, 12],
     "formats.voltage": [1, 5, 10],
     "formats.observer_fraction": 18,
-    "formats.coefficient_bits": 12,
     "formats.rounding": "floor",
-    "fabric.multipliers": "parallel",
 }
 
 
@@ -50,7 +48,7 @@ class Evaluation(unittest.TestCase):
         return len(list((Path(self.folder.name) / "structures").iterdir()))
 
     @weekly(3)
-    def test_floor_narrow_slow_and_parallel_matches_and_is_measured(self):
+    def test_floor_narrow_and_slow_matches_and_is_measured(self):
         result = self.evaluate(COARSE)
         self.assertEqual(result["status"], "ok")
         self.assertTrue(result["coarse"])
@@ -80,24 +78,18 @@ class Evaluation(unittest.TestCase):
 
     @weekly(3)
     def test_a_defect_of_the_rtl_fails_the_point(self):
-        # The second is of the supervisor's own multiplier, and seen by the heat alone.
-        for name, changes in (
-            ("estimators/dob/defects.diff/other_sign_of_inertia", {}),
-            ("campaigns/explore/defects.diff/supervisor_multiplies_for_control", COARSE),
+        defect = ROOT / "testbench/estimators/dob/defects.diff/other_sign_of_inertia"
+        folder = Path(self.folder.name, defect.name)
+        copies = {p.name: p for p in patches.write_copies(defect, folder)}
+        sources = [copies.get(path.name, path) for path in point.core_rtl()]
+        with (
+            mock.patch.object(point, "core_rtl", return_value=sources),
+            mock.patch.object(point, "_sources", None),
         ):
-            defect = ROOT / "testbench" / name
-            folder = Path(self.folder.name, defect.name)
-            copies = {p.name: p for p in patches.write_copies(defect, folder)}
-            sources = [copies.get(path.name, path) for path in point.core_rtl()]
-            with (
-                self.subTest(name),
-                mock.patch.object(point, "core_rtl", return_value=sources),
-                mock.patch.object(point, "_sources", None),
-            ):
-                result = self.evaluate(changes)
-                self.assertEqual(result["status"], "mismatch")
-                self.assertGreater(result["mismatches"], 0)
-                self.assertIn("clock", result["first_mismatch"])
+            result = self.evaluate({})
+            self.assertEqual(result["status"], "mismatch")
+            self.assertGreater(result["mismatches"], 0)
+            self.assertIn("clock", result["first_mismatch"])
                 self.assertNotIn("torque_error_max_nm", result)
 
     def test_what_cannot_work_is_refused_with_the_reason(self):

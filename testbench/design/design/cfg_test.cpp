@@ -3,7 +3,6 @@
 //
 // The registers of a design's words, and the package that holds them. Documentation:
 // docs/designs.md
-#include "design/generate_cfg.hpp"
 
 #include <set>
 #include <tuple>

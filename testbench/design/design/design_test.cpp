@@ -258,16 +258,12 @@ TEST_CASE("three phases with two shunts: the words of the loop, and what it refu
                         "[current_loop]\nfull_scale_a = 2.0\nbandwidth_hz = 2000.0\n"
                         "inductance_h = 1e-3\novercurrent_a = 1.5\n[commutation]"),
                "current = [1, 3, 18]", "current = [1, 1, 20]");
-  const std::string loop = systemverilog_package(
+  const std::string loop = cfg_package(
       elaborate(design_from_text(shunts, "shunts.toml"), shipped_registers()));
   for (const char* line :
        {"int CURRENT_STROBE = 635;", "int CURRENT_PROPORTIONAL = 73410;", "int FEED_GAIN = 355;"}) {
     CHECK_THAT(loop, Catch::Contains(line));
   }
-  const Design sines =
-      design_from_text(replaced(shunts, "\"space_vectors\"", "\"sines\""), "sines.toml");
-  CHECK_THROWS_WITH(check_commutation(sines),
-                    Catch::Contains("a current loop makes space vectors"));
   CHECK_THAT(design_error(replaced(shunts, "frequency_hz = 50_000", "frequency_hz = 80_000")),
              Catch::Contains("a current is measured and controlled"));
 }
@@ -275,13 +271,13 @@ TEST_CASE("three phases with two shunts: the words of the loop, and what it refu
 TEST_CASE("Hall lines: a constant and a CRC of their own, and no absolute encoder beside them") {
   const std::string sectioned = replaced(
       replaced(file_text(design_path("lever")), "[pwm]\n", "[pwm]\nphases = 3\n"), "[pwm]\n",
-      "[commutation]\npole_pairs = 7\noffset_rad = 0.0\nmodulation = \"sines\"\nhall = 0\n[pwm]\n");
+      "[commutation]\npole_pairs = 7\noffset_rad = 0.0\nhall = 0\n[pwm]\n");
   const auto made = [](const std::string& text) {
     return elaborate(design_from_text(text, "hall.toml"), shipped_registers());
   };
   const std::string with = replaced(sectioned, "hall = 0", "hall = 1");
-  CHECK_THAT(systemverilog_package(made(with)), Catch::Contains("int HALL = 1;"));
-  CHECK_THAT(systemverilog_package(made(sectioned)), Catch::Contains("int HALL = 0;"));
+  CHECK_THAT(cfg_package(made(with)), Catch::Contains("int HALL = 1;"));
+  CHECK_THAT(cfg_package(made(sectioned)), Catch::Contains("int HALL = 0;"));
   CHECK(design_crc(made(sectioned)) == design_crc(made(replaced(sectioned, "hall = 0\n", ""))));
   CHECK(design_crc(made(with)) != design_crc(made(sectioned)));
   CHECK_THAT(design_error(replaced(sectioned, "hall = 0", "hall = 2")),

@@ -10,6 +10,7 @@
 #include "catch.hpp"
 #include "design/design.hpp"
 #include "design_fixture.hpp"
+#include "feltgate/absolute_encoder.hpp"
 
 using namespace feltgate;
 using namespace feltgate::design;
@@ -257,8 +258,8 @@ TEST_CASE("three phases with two shunts: the words of the loop, and what it refu
                         "[current_loop]\nfull_scale_a = 2.0\nbandwidth_hz = 2000.0\n"
                         "inductance_h = 1e-3\novercurrent_a = 1.5\n[commutation]"),
                "current = [1, 3, 18]", "current = [1, 1, 20]");
-  const std::string loop =
-      cfg_package(elaborate(design_from_text(shunts, "shunts.toml"), shipped_registers()));
+  const std::string loop = cfg_package(
+      elaborate(design_from_text(shunts, "shunts.toml"), shipped_registers()));
   for (const char* line :
        {"int CURRENT_STROBE = 635;", "int CURRENT_PROPORTIONAL = 73410;", "int FEED_GAIN = 355;"}) {
     CHECK_THAT(loop, Catch::Contains(line));
@@ -268,9 +269,9 @@ TEST_CASE("three phases with two shunts: the words of the loop, and what it refu
 }
 
 TEST_CASE("Hall lines: a constant and a CRC of their own, and no absolute encoder beside them") {
-  const std::string sectioned =
-      replaced(replaced(file_text(design_path("lever")), "[pwm]\n", "[pwm]\nphases = 3\n"),
-               "[pwm]\n", "[commutation]\npole_pairs = 7\noffset_rad = 0.0\nhall = 0\n[pwm]\n");
+  const std::string sectioned = replaced(
+      replaced(file_text(design_path("lever")), "[pwm]\n", "[pwm]\nphases = 3\n"), "[pwm]\n",
+      "[commutation]\npole_pairs = 7\noffset_rad = 0.0\nhall = 0\n[pwm]\n");
   const auto made = [](const std::string& text) {
     return elaborate(design_from_text(text, "hall.toml"), shipped_registers());
   };
@@ -292,3 +293,44 @@ TEST_CASE("Hall lines: a constant and a CRC of their own, and no absolute encode
   CHECK_THAT(design_error(replaced(law, "pole_pairs = 11", "hall = 1\npole_pairs = 11")),
              Catch::Contains("a core with an engine has no pins of Hall lines"));
 }
+
+// The table against the error of an absolute encoder.
+
+namespace feltgate {
+
+constexpr double turn_rad = 2 * M_PI;
+
+TEST_CASE("encoder: the corrections are within half a count of the curve, and half an entry") {
+  for (const int bits : {12, 14, 19}) {
+    design::Design d;
+    d.absolute_bits = bits;
+    d.absolute_error_mrad = {120, -70, 10, 20, 0, 0, -4, 5};
+    const auto table = d.absolute_corrections();
+    const double counts_per_rad = std::ldexp(1 / turn_rad, bits);
+    // Of a straight line between two of 256 angles: n^2 (2 pi/256)^2 / 8 of each harmonic.
+    const double chord_rad =
+        std::pow(turn_rad / 256, 2) / 8 *
+        (std::hypot(0.12, 0.07) + 4 * std::hypot(0.01, 0.02) + 16 * std::hypot(0.004, 0.005));
+    const double bound = 0.5 + std::ldexp(0.5, bits - 20) + counts_per_rad * chord_rad + 1e-9;
+    double worst = 0;
+    for (std::int32_t k = -(1 << bits); k < 1 << bits; ++k) {
+      const double rad = k / counts_per_rad;
+      double error_mrad = 0;
+      for (std::size_t t = 0; t < d.absolute_error_mrad.size(); ++t) {
+        const double x = static_cast<double>(t / 2 + 1) * rad;
+        error_mrad += d.absolute_error_mrad[t] * (t % 2 == 0 ? std::cos(x) : std::sin(x));
+      }
+      worst = std::max(worst, std::abs(corrected(k, table.data(), bits) - k +
+                                       1e-3 * error_mrad * counts_per_rad));
+    }
+    INFO(bits << " bits: " << worst << " of " << bound);
+    CHECK(worst <= bound);
+    CHECK(worst > 0.9 * 0.5);
+    // Wraps, and keeps the order.
+    for (std::int32_t k = -(1 << bits); k < 1 << bits; ++k) {
+      if (corrected(k + 1, table.data(), bits) < corrected(k, table.data(), bits)) FAIL(k);
+    }
+  }
+}
+
+}  // namespace feltgate

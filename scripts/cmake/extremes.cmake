@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # The cases of testbench/campaigns/extremes and the program feltgate_extremes, which writes their page. With
-# decoder and low-pass alone, the decoder's count starting just below the wrap. docs/extremes.md
+# the decoder alone, whose count starts just below the wrap, and a filter alone in each rounding. docs/extremes.md
 include_guard(GLOBAL)
 
 set(extremes_folder "${FELTGATE_ROOT}/testbench/campaigns/extremes")
@@ -10,6 +10,18 @@ feltgate_verilate(extremes_decoder quad_decoder
   "${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/core/quad_decoder.sv"
   -GResetPosition=2147483000)
 set(extremes_blocks extremes_decoder)
+file(READ "${FELTGATE_ROOT}/rtl/generated/lever/cfg.sv" extremes_lever)
+foreach(rounding half_up down convergent)
+  list(LENGTH extremes_blocks number)
+  math(EXPR number "${number} - 1")
+  string(REPLACE " ROUNDING = 0;" " ROUNDING = ${number};" package "${extremes_lever}")
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/extremes_filter/${rounding}/cfg.sv" CONTENT "${package}" @ONLY)
+  feltgate_verilate(extremes_filter_${rounding} filter_alone
+    "${PROJECT_BINARY_DIR}/extremes_filter/${rounding}/cfg.sv;${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/core/fx.sv;${FELTGATE_ROOT}/rtl/core/travel_window.sv;${FELTGATE_ROOT}/rtl/core/velocity_estimator.sv;${extremes_folder}/filter_alone.sv"
+    CLASS Vfilter_${rounding})
+  list(APPEND extremes_blocks extremes_filter_${rounding})
+endforeach()
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/lever/cfg.sv")
 # An engine of one axis, as the design with one has it, and one of three.
 file(GLOB extremes_engine_parts CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/engine/*.sv")
 set(extremes_engine_sources "${FELTGATE_ROOT}/rtl/generated/lever_law/cfg.sv"

@@ -79,7 +79,7 @@ def sources_digest():
     if _sources is None:
         digest = hashlib.sha256(f"{OPTIMISE} {tool_version(compiler())}".encode())
         digest.update(f"{tool_version('verilator')} {synth_tools.version(yosys())}".encode())
-        paths = [*core_rtl(), *ROOT.glob("rtl/core/**/*.sv"), *ROOT.glob("model/**/*.hpp")]
+        paths = [*core_rtl(), *ROOT.glob("model/**/*.hpp")]
         paths += [ROOT / "model/studies/explore/point_main.cpp", Path(__file__)]
         paths += [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
         paths = [p for p in paths if "generated" not in p.parts]
@@ -102,7 +102,9 @@ def structure_key(package):
 
 
 def core_rtl():
-    return [ROOT / "rtl" / name for name in synth_measure.core_sources(ROOT)]
+    """The devices, and the module with a port for each pin that C++ sees of them."""
+    names = [*rtl_sources.core_files(ROOT), *rtl_sources.folder_files(ROOT, "options")]
+    return [*(ROOT / "rtl" / name for name in names), ROOT / "model/sim/backends/feltgate_core.sv"]
 
 
 def verilator_root():
@@ -148,7 +150,7 @@ def tools_in(folder):
 
 def synthesis_inputs(generated, folder, tools):
     """Copies the sources, writes the wrappers; commands that read the sources."""
-    names = [*rtl_sources.cell_files(ROOT), *synth_measure.core_sources(ROOT)]
+    names = rtl_sources.core_files(ROOT)
     shutil.copy(generated / "cfg.sv", folder)
     for name in names:
         shutil.copy(ROOT / "rtl" / name, folder)

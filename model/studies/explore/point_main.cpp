@@ -315,7 +315,7 @@ double torque_settling_s(const std::vector<Value>& values, const plant::MotorPar
                         std::llround(std::ldexp(settling_step_nm, D::f.torque.fraction)));
 
   // Time in clocks from the start of the tick in which the write is in force.
-  constexpr std::int64_t duty_clock = 2 + 46;
+  constexpr std::int64_t duty_clock = axis::TickCounter::sample_clock + design::latency_clocks;
   constexpr std::int64_t end = D::clock_hz / 20;  // 50 ms
   plant::Winding winding(motor.resistance_ohm, motor.inductance_h);
   winding.set_step(static_cast<double>(D::pwm_period) / static_cast<double>(D::clock_hz));

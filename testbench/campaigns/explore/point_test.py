@@ -78,18 +78,21 @@ class Evaluation(unittest.TestCase):
 
     @weekly(3)
     def test_a_defect_of_the_rtl_fails_the_point(self):
-        defect = ROOT / "testbench/estimators/dob/defects.diff/other_sign_of_inertia"
-        folder = Path(self.folder.name, defect.name)
-        copies = {p.name: p for p in patches.write_copies(defect, folder)}
-        sources = [copies.get(path.name, path) for path in point.core_rtl()]
-        with (
-            mock.patch.object(point, "core_rtl", return_value=sources),
-            mock.patch.object(point, "_sources", None),
-        ):
-            result = self.evaluate({})
-            self.assertEqual(result["status"], "mismatch")
-            self.assertGreater(result["mismatches"], 0)
-            self.assertIn("clock", result["first_mismatch"])
+        # The second is seen by the heat alone.
+        for name, changes in (("other_sign_of_inertia", {}), ("heat_forgets_back_emf", COARSE)):
+            defect = ROOT / "testbench/campaigns/explore/defects.diff" / name
+            folder = Path(self.folder.name, defect.name)
+            copies = {p.name: p for p in patches.write_copies(defect, folder)}
+            sources = [copies.get(path.name, path) for path in point.core_rtl()]
+            with (
+                self.subTest(name),
+                mock.patch.object(point, "core_rtl", return_value=sources),
+                mock.patch.object(point, "_sources", None),
+            ):
+                result = self.evaluate(changes)
+                self.assertEqual(result["status"], "mismatch")
+                self.assertGreater(result["mismatches"], 0)
+                self.assertIn("clock", result["first_mismatch"])
                 self.assertNotIn("torque_error_max_nm", result)
 
     def test_what_cannot_work_is_refused_with_the_reason(self):

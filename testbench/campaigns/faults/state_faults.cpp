@@ -32,6 +32,10 @@ namespace {
 
 using D = Lever;
 
+/// A memory of the axis.
+#define FELTGATE_AXIS(NAME) \
+  rtl_->rootp->feltgate_core__DOT__gen_lever__DOT__u_top__DOT__u_axis__DOT__##NAME
+
 /// The Verilated core with access to its state. A test can flip a flip-flop or a word of a memory
 /// (all logic that depends on it is evaluated again), and copy and compare the whole state.
 class RtlState {
@@ -69,15 +73,13 @@ class RtlState {
     if (((byte_of(f) & mask_of(f)) != 0) != level) flip(flop);
   }
   void flip_parameter(int address, int bit) {
-    rtl_->rootp
-        ->feltgate_core__DOT__u_wave__DOT__u_registers__DOT__parameter_ram[static_cast<std::size_t>(
-            address)] ^= QData{1} << bit;
+    FELTGATE_AXIS(u_host__DOT__u_params__DOT__ram)
+    [static_cast<std::size_t>(address)] ^= QData{1} << bit;
     settle();
   }
   void flip_line(int address, int bit) {
-    auto& word =
-        rtl_->rootp->feltgate_core__DOT__u_estimators__DOT__g_n_method__DOT__u_velocity_n__DOT__line
-            [static_cast<std::size_t>(address)];
+    auto& word = FELTGATE_AXIS(
+        u_velocity_estimator__DOT__u_window__DOT__line)[static_cast<std::size_t>(address)];
     word = static_cast<SData>(word ^ (1u << bit));
     settle();
   }
@@ -171,7 +173,9 @@ void sort_in(StateBit* b) {
     b->group = group;
     b->safety = safety;
   };
-  if (begins(n, "u_snapshot") || begins(n, "u_registers.g_read")) return is("read-back", false);
+  for (const char* shown : {"u_snapshot", "u_host.addr_", "u_host.reg_rdata_o", "u_params.read_"}) {
+    if (begins(n, shown)) return is("read-back", false);
+  }
   if (begins(n, "u_quad_decoder.")) {
     const std::string r = n.substr(15);
     for (const char* input : {"meta_q", "sync_q", "previous_q", "level_q", "fill_q", "primed_q",
@@ -183,19 +187,24 @@ void sort_in(StateBit* b) {
     }
     return is("position");
   }
-  if (begins(n, "u_encoder.")) return is("position");
-  if (begins(n, "u_velocity_n")) return is("velocity");
-  if (begins(n, "u_dob")) return is("observer");
-  if (begins(n, "u_scenes")) return is("scenes");
-  if (begins(n, "u_pwm")) return is("pwm");
-  if (begins(n, "u_supervisor")) return is("supervisor");
-  if (begins(n, "u_sequencer")) return is("sequencer");
-  if (begins(n, "u_registers") || begins(n, "u_wave.scene_o")) return is("words and control");
-  for (const char* monitor :
-       {"u_encoder_monitor", "u_hold_timer", "u_self_test", "u_velocity_jump"}) {
-    if (begins(n, monitor)) return is("monitors");
+  constexpr std::pair<const char*, const char*> groups[] = {{"u_axis.", "position"},
+                                                            {"u_velocity_estimator", "velocity"},
+                                                            {"u_observer", "observer"},
+                                                            {"u_scene", "scenes"},
+                                                            {"u_ramp", "torque path"},
+                                                            {"u_torque_law", "torque path"},
+                                                            {"u_pwm", "pwm"},
+                                                            {"u_tick_counter", "ticks"},
+                                                            {"u_registers", "words and control"},
+                                                            {"u_params", "words and control"},
+                                                            {"u_host", "words and control"},
+                                                            {"u_arming", "arming and stop"},
+                                                            {"u_stop_latch", "arming and stop"},
+                                                            {"u_fault_latch", "arming and stop"}};
+  for (const auto& [block, group] : groups) {
+    if (begins(n, block)) return is(group);
   }
-  is("torque path");
+  is("monitors");
 }
 
 constexpr int kTick = D::clocks_per_tick;

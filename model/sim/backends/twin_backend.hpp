@@ -25,15 +25,15 @@ class TwinBackend : public ClockedBackend {
   TwinBackend() : ClockedBackend(design_info<D>()) {}
   const char* name() const override { return "twin"; }
 
-  /// Goes from event to event: pins, register writes, end of the stretch. Clocks in which nothing
-  /// happens that a caller could ask for are deferred. Flattened, it would take three times as long
-  /// to compile.
+  /// Goes from event to event: pins, register writes, end of the stretch. The last clocks, in which
+  /// nothing happens that a caller could ask for, are deferred, so that the core gets whole ticks.
   void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) override {
     snapshots_.clear();
     if (first != last) events_.push(first, last);
     CoreIn in = inputs();
     const Clock end = now_ + clocks;
-    if (!gate_times_ && !sensor_ && writes_.empty() && events_.next(end) >= end) {
+    const bool may_wait = !gate_times_ && !sensor_;
+    if (may_wait && writes_.empty() && events_.next(end) >= end) {
       in.encoder = events_.pins();
       if (core_.calm(in, waiting_ + clocks)) {
         waiting_ += clocks;
@@ -64,6 +64,16 @@ class TwinBackend : public ClockedBackend {
       if (!writes_.empty()) {
         const int ahead = host_write_clock - clock_of_tick;
         until = std::min(until, now_ + (ahead > 0 ? ahead : ahead + D::clocks_per_tick));
+      }
+      const Clock last = (clock_of_tick + until - now_) % D::clocks_per_tick;
+      if (may_wait && writes_.empty() && until == end && last < until - now_) {
+        core_.run(in, until - last - now_, tell);
+        now_ = until - last;
+        if (last > 0 && core_.calm(in, last)) {
+          waiting_ = last;
+          now_ = end;
+          return;
+        }
       }
       core_.run(in, until - now_, tell);
       now_ = until;

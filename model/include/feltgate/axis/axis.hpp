@@ -200,13 +200,12 @@ class Axis {
     if (hot || fast.too_fast || fast.jumped || polarity.trip || safety.watchdog.trip(open)) {
       return false;
     }
-    const auto test = [&](SelfTest& t) {
-      t.sample(in.position.travel >> laws.self_test_drop);
-      t.start(p, armed, mode == Map::mode_voltage, in.pins.axis_waits, count);
-    };
-    if (!idle) {
-      SelfTest self_test = safety.self_test;
-      test(self_test);
+    SelfTest self_test = safety.self_test;
+    self_test.sample(in.position.travel >> laws.self_test_drop);
+    if (idle) {
+      self_test.rest(count);
+    } else {
+      self_test.start(p, armed, mode == Map::mode_voltage, in.pins.axis_waits, count);
       if (self_test.failed()) return false;
     }
 
@@ -231,7 +230,7 @@ class Axis {
     ramp = laws.ramp.tick(ramp, p, to_ramp(in, scene.torque, renders, tests));
     torque =
         laws.torque.tick(torque, p, armed, mode, ramp.tau_ref, observer.tau_hat, speed.velocity);
-    test(safety.self_test);
+    safety.self_test = self_test;
     safety.hold.tick(p, armed, count, ramp.tau_ref, in.position.moved);
     v = values(in, safety.levels(laws));
     return true;

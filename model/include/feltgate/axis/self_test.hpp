@@ -28,20 +28,21 @@ class SelfTest {
     before_ = now_;
     now_ = travel & 3;
   }
+  /// A tick in which no test is under way.
+  void rest(std::uint32_t tick_count) {
+    unit_ = (tick_count >> Map::self_test_unit_bits & 1) != 0;
+    patience_ = (tick_count >> Map::self_test_patience_bits & 1) != 0;
+    fail_ = late_ = false;
+    units_ = 0;
+  }
   /// Once a tick, after the scene's torque. `direct`: voltage mode, no test. `waits`: an axis of a
   /// lower number tests first.
   template <class T>
   void start(const Words<T>& p, bool armed, bool direct, bool waits, std::uint32_t tick_count) {
     constexpr int answer = Map::self_test_counts, end = (1 << Map::self_test_count_bits) - 1;
+    if (idle(armed)) return rest(tick_count);
     const bool unit_now = (tick_count >> Map::self_test_unit_bits & 1) != 0;
     const bool patience_now = (tick_count >> Map::self_test_patience_bits & 1) != 0;
-    if (idle(armed)) {
-      unit_ = unit_now;
-      patience_ = patience_now;
-      fail_ = late_ = false;
-      units_ = 0;
-      return;
-    }
     const unsigned step = (now_ - before_) & 3;
     const bool still = step == 0;
     // Counts since the first pulse began. Motion that begins only in the second does not count.

@@ -25,17 +25,8 @@ axis::Bridge bridge_of(const S& s) {
   return {s.measured, s.period_start, s.duty_active, s.current, static_cast<unsigned>(s.why)};
 }
 template <class S>
-axis::Panel panel_of(const S& s) {
-  return {s.arm, s.stop, s.set_zero, s.scene};
-}
-template <class S>
-axis::Peers peers_of(const S& s) {
-  return {s.fault, s.silent, s.blocked, s.testing, s.waits};
-}
-template <class S>
 axis::Commands commands_of(const S& s) {
-  return {s.host,      s.host_arm,     s.panel_arm, s.disarm, s.stop,
-          s.host_stop, s.clear_faults, s.kick,      s.mode};
+  return {s.host, s.host_arm, s.disarm, s.host_stop, s.clear_faults, s.kick, s.mode};
 }
 template <class S>
 axis::Safe safe_of(const S& s) {

@@ -28,15 +28,23 @@ struct Twin : BlockTwin<ports::host> {
     block.words(v, safe_of(in.safety), position_of(in.position), bridge_of(in.bridge), in.testing);
     return v;
   }
-  void clock(const In& in) {
-    block.clock(memory, bank, formats(), tick_of(in.tick), panel_of(in.panel), port(in),
-                safe_of(in.safety), position_of(in.position), values(in));
+  static Pins pins(const In& in) {
+    Pins pins;
+    pins.scene = static_cast<std::uint8_t>(in.panel.scene);
+    pins.set_zero = in.panel.set_zero;
+    pins.reg_addr = in.reg_addr;
+    pins.reg_wdata = in.reg_wdata;
+    pins.reg_write = in.reg_write;
+    return pins;
   }
-  static RegisterPort port(const In& in) { return {in.reg_addr, in.reg_wdata, in.reg_write}; }
+  void clock(const In& in) {
+    block.clock(memory, bank, formats(), tick_of(in.tick), pins(in), safe_of(in.safety),
+                position_of(in.position), values(in));
+  }
   Out out(const In& in) const {
     const Control& c = block.registers.control;
     const bool last = in.tick.last;
-    const Commands m = block.commands(last, panel_of(in.panel));
+    const Commands m = block.commands(last);
     const Values v = values(in);
     const SnapshotWord& w = block.snapshot.word;
     Out o;
@@ -46,19 +54,19 @@ struct Twin : BlockTwin<ports::host> {
     o.control = {
         c.filter(), c.pwm_mode(), c.encoder_polarity(), c.motor_polarity(), c.mode(), c.scene(),
         c.arm(),    c.host()};
-    o.commands = {m.host,      m.host_arm,     m.panel_arm, m.disarm, m.stop,
-                  m.host_stop, m.clear_faults, m.kick,      m.mode};
+    o.commands = {m.host,      m.host_arm,     in.panel.arm, m.disarm, in.panel.stop,
+                  m.host_stop, m.clear_faults, m.kick,       m.mode};
     o.scene = block.scene;
     o.set_zero = block.registers.set_zero(last);
     o.restart = block.registers.restart(last, block.scene);
-    o.trip = block.params.word_error();
+    o.trip = block.params.word_error() || block.registers.error();
     o.snapshot = {v.tick,   v.position, v.status,  v.faults,  v.encoder, v.index,   v.scene,
                   v.limits, v.velocity, v.tau_hat, v.tau_ref, v.current, v.voltage, v.duty};
     o.word = {w.valid, w.place, w.data};
     return o;
   }
   void reset(const In& in) {
-    block.reset(memory, bank, port(in), static_cast<std::uint32_t>(design()["CONTROL_RESET"]));
+    block.reset(memory, bank, pins(in), static_cast<std::uint32_t>(design()["CONTROL_RESET"]));
     at = 0;
   }
 

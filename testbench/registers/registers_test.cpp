@@ -17,12 +17,14 @@ struct Twin : BlockTwin<ports::registers> {
       in.reg_addr = static_cast<std::uint16_t>(random.pick(design().words).address);
     if (random.one_in(3)) in.reg_wdata >>= random.below(32);
   }
-  Registers::In at(const In& in) const {
-    return {in.tick,     {in.reg_addr, in.reg_wdata, in.reg_write},
-            in.armed,    in.polarity_holds,
-            in.set_zero, in.scene};
+  void clock(const In& in) {
+    Pins pins;
+    pins.reg_addr = in.reg_addr;
+    pins.reg_wdata = in.reg_wdata;
+    pins.reg_write = in.reg_write;
+    pins.set_zero = in.set_zero;
+    block.clock(formats(), {in.tick, pins, in.armed, in.polarity_holds});
   }
-  void clock(const In& in) { block.clock(formats(), at(in)); }
   Out out(const In& in) const {
     using C = Map::C;
     const Control& c = block.control;
@@ -30,7 +32,7 @@ struct Twin : BlockTwin<ports::registers> {
     return {block.busy(),
             {c.filter(), c.pwm_mode(), c.encoder_polarity(), c.motor_polarity(), c.mode(),
              c.scene(), c.arm(), c.host()},
-            false,
+            block.error(),
             block.write(in.tick, in.armed),
             block.address(),
             block.data(),

@@ -18,7 +18,11 @@ using C = Map::C;
 struct Port {
   /// A clock; the last of a tick where `tick`.
   void clock(bool tick, int addr = 0, std::uint32_t data = 0, bool write = false) {
-    r.clock(formats(), {tick, {addr, data, write}, armed, false, false, Map::S::wall});
+    Pins pins;
+    pins.reg_addr = static_cast<std::uint16_t>(addr);
+    pins.reg_wdata = data;
+    pins.reg_write = write;
+    r.clock(formats(), {tick, pins, armed, false});
   }
   /// A write, and the clock in which it takes effect.
   void write(int addr, std::uint32_t data) {

@@ -51,22 +51,25 @@ struct Twin : BlockTwin<ports::safety> {
         : tick(tick_of(in.tick)),
           position(position_of(in.position)),
           bridge(bridge_of(in.bridge)),
-          peers(peers_of(in.peers)),
           to{tick,
              commands_of(in.commands),
              position,
              bridge,
-             peers,
+             pins,
              (in.trips >> fault::word & 1) != 0,
              (in.trips >> fault::engine & 1) != 0,
              in.velocity,
              in.tau_ref,
              in.current,
-             in.voltage} {}
+             in.voltage} {
+      pins.arm = in.commands.panel_arm, pins.stop = in.commands.stop;
+      pins.axis_fault = in.peers.fault, pins.axis_silent = in.peers.silent;
+      pins.axis_blocked = in.peers.blocked, pins.axis_waits = in.peers.waits;
+    }
     Tick tick;
     Position position;
     Bridge bridge;
-    Peers peers;
+    Pins pins;
     Safety::In to;
   };
   void between(const In& in) { block.stop.see(in.commands.stop); }

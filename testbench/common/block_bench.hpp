@@ -5,12 +5,11 @@
 // after every edge and between the edges. A twin is
 //   struct Twin : BlockTwin<ports::NAME> { void clock(const In&); Out out(const In&) const; };
 // and may have
-//   reset(const In&)            where a reset is not a twin as at the begin
-//   legal(In&, Random&)         makes inputs that the block is not made for into legal ones
-//   between(const In&)          for inputs that act without a clock
-//   asynchronous(In&, const In&) what may not change between the edges, from the second
-//   holds, strobes(In&, clock)  of a tick block: its inputs hold for so many clocks from strobe 0
-//   on
+//   reset(const In&)              where a reset is not a twin as at the begin
+//   legal(In&, Random&)           makes inputs that the block is not made for into legal ones
+//   holds, strobes(In&, clock)    of a tick block: its inputs hold for so many clocks from 0 on
+//   between(const In&)            for inputs that act without a clock
+//   asynchronous(In&, const In&)  keeps inputs that may not change between the edges
 // docs/testing.md
 #pragma once
 
@@ -265,9 +264,12 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {},
   using Out = typename Twin::Out;
   using Words = typename Reached<Out>::Words;
   static_assert(std::is_trivially_copyable_v<Out>);
+  using Rtl = typename Block::Rtl;
   Reached<Out> reached;
-  for (std::uint64_t seed = 1; seed <= o.seeds; ++seed) {
-    RtlModel<typename Block::Rtl> rtl(seed);
+  // The first difference in so many clocks; with a waveform all of them, the last 220 in it.
+  const auto run = [&](std::uint64_t seed, std::int64_t clocks, const std::string& waveform) {
+    RtlModel<Rtl> rtl(seed);
+    if (!waveform.empty()) rtl.trace(waveform, "1ns");
     Twin twin = prototype;
     Swarm<Block> swarm(seed, home), other(seed + 1000, home);
     Random random(seed ^ 0x726573);
@@ -290,12 +292,15 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {},
       check.first().cycle = clock;
       check.first().instant = instant;
     };
-    for (const auto clocks = scaled_clocks(o.clocks) / static_cast<std::int64_t>(o.seeds);
-         clock < clocks; ++clock) {
-      if (reset > 0)
+    const auto dump = [&](std::int64_t time) {
+      if (rtl.tracing() && clock >= clocks - 220) rtl.dump(static_cast<std::uint64_t>(time));
+    };
+    for (; clock < clocks && (!check.failed() || rtl.tracing()); ++clock) {
+      if (reset > 0) {
         --reset;
-      else if (seed % 2 == 0 && random.one_in(o.resets))
+      } else if (seed % 2 == 0 && random.one_in(o.resets)) {
         reset = 1 + static_cast<int>(random.below(8));
+      }
       if constexpr (detail::HasStrobes<Twin>::value) {
         if (of_tick == 0 || of_tick >= Twin::holds) swarm.next(of_tick == 0 ? fresh : noise);
         if (of_tick == 0) swarm.legal(twin, fresh);
@@ -309,10 +314,11 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {},
         swarm.legal(twin, in);
       }
       if (reset > 0) {
-        if constexpr (detail::HasReset<Twin>::value)
+        if constexpr (detail::HasReset<Twin>::value) {
           twin.reset(in);
-        else
+        } else {
           twin = prototype;
+        }
       }
       rtl->rst_ni = reset > 0 ? 0 : 1;
       if (reset == 0 && random.one_in(4)) {
@@ -327,11 +333,24 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {},
       in.apply_to(*rtl);
       rtl.low();
       look("before the edge", in);
+      dump(20 * clock);
       rtl.high();
       if (reset == 0) twin.clock(in);
       look("after the edge", in);
-      if (check.failed()) fail_with(Block::name, seed, check.first(), "");
+      dump(20 * clock + 10);
     }
+    return check;
+  };
+  const auto clocks = scaled_clocks(o.clocks) / static_cast<std::int64_t>(o.seeds);
+  for (std::uint64_t seed = 1; seed <= o.seeds; ++seed) {
+    Check check = run(seed, clocks, "");
+    if (!check.failed()) continue;
+    std::string waveform;
+    if (feltgate::detail::HasTrace<Rtl>::value && waveform_wanted()) {
+      waveform = mismatch_file(Block::name);
+      run(seed, check.first().cycle + 20, waveform);
+    }
+    fail_with(Block::name, seed, check.first(), waveform);
   }
   if (waveform_wanted()) CHECK(reached.missing(o.constant) == "");
 }

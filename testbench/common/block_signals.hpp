@@ -24,21 +24,6 @@ template <class S>
 axis::Bridge bridge_of(const S& s) {
   return {s.measured, s.period_start, s.duty_active, s.current, static_cast<unsigned>(s.why)};
 }
-/// Of a block with the register port.
-template <class In>
-void set_port(axis::Pins& pins, const In& in) {
-  pins.reg_addr = in.reg_addr;
-  pins.reg_wdata = in.reg_wdata;
-  pins.reg_write = in.reg_write;
-}
-template <class S>
-void set_peers(axis::Pins& pins, const S& s) {
-  pins.axis_fault = s.fault;
-  pins.axis_silent = s.silent;
-  pins.axis_blocked = s.blocked;
-  pins.axis_testing = s.testing;
-  pins.axis_waits = s.waits;
-}
 template <class S>
 axis::Commands commands_of(const S& s) {
   return {s.host, s.host_arm, s.disarm, s.host_stop, s.clear_faults, s.kick, s.mode};

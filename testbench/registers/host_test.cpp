@@ -28,18 +28,18 @@ struct Twin : BlockTwin<ports::host> {
     block.words(v, safe_of(in.safety), position_of(in.position), bridge_of(in.bridge), in.testing);
     return v;
   }
+  static Pins pins(const In& in) {
+    Pins pins;
+    pins.scene = static_cast<std::uint8_t>(in.panel.scene);
+    pins.set_zero = in.panel.set_zero;
+    pins.reg_addr = in.reg_addr;
+    pins.reg_wdata = in.reg_wdata;
+    pins.reg_write = in.reg_write;
+    return pins;
+  }
   void clock(const In& in) {
     block.clock(memory, bank, formats(), tick_of(in.tick), pins(in), safe_of(in.safety),
                 position_of(in.position), values(in));
-  }
-  static Pins pins(const In& in) {
-    Pins p;
-    p.arm = in.panel.arm;
-    p.stop = in.panel.stop;
-    p.set_zero = in.panel.set_zero;
-    p.scene = in.panel.scene;
-    set_port(p, in);
-    return p;
   }
   Out out(const In& in) const {
     const Control& c = block.registers.control;

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 #include "feltgate/axis/registers.hpp"
 
-#include "block_signals.hpp"
 #include "ports/registers.hpp"
 
 using namespace feltgate::test;
@@ -20,8 +19,10 @@ struct Twin : BlockTwin<ports::registers> {
   }
   void clock(const In& in) {
     Pins pins;
+    pins.reg_addr = in.reg_addr;
+    pins.reg_wdata = in.reg_wdata;
+    pins.reg_write = in.reg_write;
     pins.set_zero = in.set_zero;
-    set_port(pins, in);
     block.clock(formats(), {in.tick, pins, in.armed, in.polarity_holds});
   }
   Out out(const In& in) const {
@@ -31,7 +32,7 @@ struct Twin : BlockTwin<ports::registers> {
     return {block.busy(),
             {c.filter(), c.pwm_mode(), c.encoder_polarity(), c.motor_polarity(), c.mode(),
              c.scene(), c.arm(), c.host()},
-            false,
+            block.error(),
             block.write(in.tick, in.armed),
             block.address(),
             block.data(),

@@ -62,9 +62,9 @@ struct Twin : BlockTwin<ports::safety> {
              in.tau_ref,
              in.current,
              in.voltage} {
-      pins.arm = in.commands.panel_arm;
-      pins.stop = in.commands.stop;
-      set_peers(pins, in.peers);
+      pins.arm = in.commands.panel_arm, pins.stop = in.commands.stop;
+      pins.axis_fault = in.peers.fault, pins.axis_silent = in.peers.silent;
+      pins.axis_blocked = in.peers.blocked, pins.axis_waits = in.peers.waits;
     }
     Tick tick;
     Position position;

@@ -5,6 +5,7 @@
 // may promise. docs/blocks/velocity.md
 #include "catch.hpp"
 #include "feltgate/feltgate_core.hpp"
+#include "feltgate/generated/causes.hpp"
 #include "random.hpp"
 
 #include FELTGATE_DESIGN_HEADER

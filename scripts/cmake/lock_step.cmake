@@ -42,8 +42,8 @@ function(feltgate_lock_step block)
     add_custom_command(OUTPUT "${folder}/ports/${block}.hpp"
       COMMAND ${CMAKE_COMMAND} -E make_directory "${folder}/ports"
       COMMAND ${CMAKE_COMMAND} -E env "VERILATOR_ROOT=${VERILATOR_ROOT}" ${VERILATOR_BIN} --xml-only
-              --xml-output "${folder}/${block}.xml" --Mdir "${folder}" --top-module ${block} -Wno-fatal -Wno-lint ${arg_PARAMS}
-              ${sources}
+              --xml-output "${folder}/${block}.xml" --Mdir "${folder}" --top-module ${block}
+              -Wno-fatal -Wno-lint ${arg_PARAMS} ${sources}
       COMMAND ${Python3_EXECUTABLE} -B "${ports}" "${folder}/${block}.xml" "${folder}/ports/${block}.hpp"
       DEPENDS ${sources} "${ports}" VERBATIM)
     add_library(${name}_object OBJECT ${arg_TEST} "${folder}/ports/${block}.hpp")

@@ -189,8 +189,8 @@ TEST_CASE("velocity by M/T: a span, a turn, the way to standstill") {
   CHECK(e.raw() == Approx(-count_in_clock / 500).margin(lsb));
   move(-8, 400);
   CHECK(e.raw() == Approx(-count_in_clock / 400).margin(lsb));
-  hold(600);  // 1.5 counts over the age at the sample before
-  CHECK(e.raw() == Approx(-1.5 * count_in_clock / 1000).epsilon(0.1));
+  hold(600);  // 1.5 counts over the age at the sample before the last
+  CHECK(e.raw() == Approx(-1.5 * count_in_clock / 900).margin(lsb));
   hold((1 << 23) - 1'200);
   CHECK(e.raw() < 0);
   hold(400);

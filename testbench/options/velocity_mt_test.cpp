@@ -11,14 +11,14 @@ using namespace feltgate::test;
 
 namespace {
 
-struct Twin : TickTwin<ports::velocity_estimator, VelocityEstimator<Fixed>> {
-  static constexpr int holds = 36;  // the division must end before the next sample
-  static void strobes(In& in, int clock) { in.sample = clock == 0; }
+struct Twin : BlockTwin<ports::velocity_estimator> {
   void clock(const In& in) {
     meter.clock(spans, stamps.data(), in.travel, in.sample);
     block.clock(in.sample, [&] { return law.tick(block.state, in.p, spans); });
   }
-  Out out(const In&) const { return {block.shown().velocity, block.shown().saturated, valid()}; }
+  Out out(const In&) const {
+    return {block.shown().velocity, block.shown().saturated, block.valid(law.latency)};
+  }
 
   /// A hand on the encoder: rests, slow, faster than the format, turns, an edge that chatters;
   /// rarely two counts in a clock, as no decoder gives.
@@ -28,6 +28,7 @@ struct Twin : TickTwin<ports::velocity_estimator, VelocityEstimator<Fixed>> {
       per_count = random.one_in(6) ? left : 3 + random.below(2U << random.below(12));
       direction = random.coin() ? 1 : -1;
       chatters = random.one_in(6);
+      next = per_count;
       if (random.one_in(20)) position += 2;
     }
     if (--next <= 0) {
@@ -36,12 +37,22 @@ struct Twin : TickTwin<ports::velocity_estimator, VelocityEstimator<Fixed>> {
       if (chatters) direction = -direction;
     }
     in.travel = static_cast<std::int16_t>(position);
+    in.sample = clocks == 0;
+    if (in.sample) {  // the words hold in a tick, and the division ends in it
+      p = in.p;
+      clocks = 36 + random.below(random.coin() ? 2 : 30);
+    }
+    in.p = p;
+    --clocks;
   }
 
+  VelocityEstimator<Fixed> law{design()};
+  Clocked<VelocityEstimator<Fixed>> block;
   SpanMeter meter{design(), 14};
   SpanMeter::State spans;
   std::vector<std::uint32_t> stamps = std::vector<std::uint32_t>(meter.places);
-  std::int64_t left = 0, next = 0, per_count = 1;
+  decltype(In::p) p;
+  std::int64_t left = 0, next = 0, per_count = 1, clocks = 0;
   int position = 0, direction = 1;
   bool chatters = false;
 };

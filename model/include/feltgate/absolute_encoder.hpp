@@ -53,7 +53,6 @@ class AbsoluteEncoder {
     bool command = false;
     std::int32_t position = 0;  ///< counts of 2^-bits turn; wraps
     bool valid = false;
-    bool busy = false;
     bool starts = true;     ///< no reading was wrong since the reset
     int faults = kMissing;  ///< nothing is known before the first reading
   };
@@ -75,13 +74,11 @@ class AbsoluteEncoder {
     if (clocks && wait_ == 0 && period_ != 0) command_ = (command_ << 1) & 0xffff;
     step(in.sample);
     out_.command = p_.framing == kSpi && (command_ & 0x8000) != 0;
-    out_.busy = state_ != State::idle;
     bit_ = captured_;
     captured_ = in.data;
   }
 
   const Out& out() const { return out_; }
-  const Parameters& parameters() const { return p_; }
 
  private:
   enum class State { idle, lead, read, gap };

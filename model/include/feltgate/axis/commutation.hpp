@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/options/commutation.sv with electrical_angle.sv and space_vector.sv: three on-times
-// from a position and an amplitude, and the words of a motor. A result is computed as its sample is
-// taken, and shown 42 clocks after it. docs/blocks/three_phase.md
+// from a position and an amplitude. A result is computed as its sample is taken, and shown 42
+// clocks after it. docs/blocks/three_phase.md
 #pragma once
 
 #include <algorithm>
@@ -13,18 +13,6 @@
 #include <cstdint>
 
 namespace feltgate::axis {
-
-/// Electrical turn per count, 2^-32 turn, modulo a turn: exact if counts_per_turn is a power of two
-/// up to 2^32, else within 2^-33 turn for each count.
-inline std::uint32_t commutation_gain(int pole_pairs, std::int64_t counts_per_turn) {
-  const auto counts = static_cast<std::uint64_t>(counts_per_turn);
-  const std::uint64_t turns = static_cast<std::uint64_t>(pole_pairs) << 32;
-  return static_cast<std::uint32_t>((turns + counts / 2) / counts);
-}
-/// An angle in electrical turns as a word, 2^-32 turn.
-inline std::uint32_t commutation_angle(double turns) {
-  return static_cast<std::uint32_t>(std::llround(std::ldexp(turns - std::floor(turns), 32)));
-}
 
 /// Bit-exact and clock-exact with the RTL.
 class Commutation {

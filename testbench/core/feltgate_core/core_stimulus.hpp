@@ -345,7 +345,7 @@ class CoreStimulus {
         break;
       case 5:  // a heavy lever: the observer reaches its limits
         then(D::C::control, host);
-        then(D::A::inertia_gain, (1u << D::coefficient_bits) - 1);
+        then(D::A::inertia_gain, (1u << D::P::inertia_gain.width()) - 1);
         then(D::A::overspeed, 0x7fffffff);
         arm();
         then(kSetOff, 40);

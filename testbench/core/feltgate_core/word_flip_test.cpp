@@ -227,7 +227,8 @@ TEST_CASE("core: each control bit that holds while armed opens the gates at once
 }
 
 TEST_CASE("core: a velocity that jumps opens the gates within a tick") {
-  constexpr int weight = D::f.velocity.width() + D::coefficient_bits - D::P::velocity_a1.fraction;
+  constexpr int weight =
+      D::f.velocity.width() + D::P::velocity_a1.width() - D::P::velocity_a1.fraction;
   for (int bit = 0; bit < D::f.velocity.width(); ++bit) {
     if (bit == weight + 1) continue;  // may be found or not: the filter absorbs a part at once
     Pair pair;

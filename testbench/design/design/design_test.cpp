@@ -258,8 +258,8 @@ TEST_CASE("three phases with two shunts: the words of the loop, and what it refu
                         "[current_loop]\nfull_scale_a = 2.0\nbandwidth_hz = 2000.0\n"
                         "inductance_h = 1e-3\novercurrent_a = 1.5\n[commutation]"),
                "current = [1, 3, 18]", "current = [1, 1, 20]");
-  const std::string loop = cfg_package(
-      elaborate(design_from_text(shunts, "shunts.toml"), shipped_registers()));
+  const std::string loop =
+      cfg_package(elaborate(design_from_text(shunts, "shunts.toml"), shipped_registers()));
   for (const char* line :
        {"int CURRENT_STROBE = 635;", "int CURRENT_PROPORTIONAL = 73410;", "int FEED_GAIN = 355;"}) {
     CHECK_THAT(loop, Catch::Contains(line));
@@ -269,9 +269,9 @@ TEST_CASE("three phases with two shunts: the words of the loop, and what it refu
 }
 
 TEST_CASE("Hall lines: a constant and a CRC of their own, and no absolute encoder beside them") {
-  const std::string sectioned = replaced(
-      replaced(file_text(design_path("lever")), "[pwm]\n", "[pwm]\nphases = 3\n"), "[pwm]\n",
-      "[commutation]\npole_pairs = 7\noffset_rad = 0.0\nhall = 0\n[pwm]\n");
+  const std::string sectioned =
+      replaced(replaced(file_text(design_path("lever")), "[pwm]\n", "[pwm]\nphases = 3\n"),
+               "[pwm]\n", "[commutation]\npole_pairs = 7\noffset_rad = 0.0\nhall = 0\n[pwm]\n");
   const auto made = [](const std::string& text) {
     return elaborate(design_from_text(text, "hall.toml"), shipped_registers());
   };

@@ -267,10 +267,9 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   CHECK(contains(package, "int ABSOLUTE_TABLE = 0;"));
   CHECK_FALSE(contains(package, "8'd0: absolute_correction"));
   // A slope of 0.4 makes the readings of a motion faster by 1/0.6: 256.003 counts, and 2.
-  CHECK(contains(
-      cfg_package(elaborate(design_from_text(with("0, 0, 0, 0, 0, 0, 0, 100"), "t.toml"),
-                                      shipped_registers())),
-      "ABSOLUTE_JUMP_STEP = 259;"));
+  CHECK(contains(cfg_package(elaborate(design_from_text(with("0, 0, 0, 0, 0, 0, 0, 100"), "t.toml"),
+                                       shipped_registers())),
+                 "ABSOLUTE_JUMP_STEP = 259;"));
   CHECK(design_crc(table) != design_crc(shipped("lever_absolute")));
   CHECK(contains(design_error(with("8.0")), "1 numbers are no cosines and sines"));
   CHECK(contains(design_error(with("191, 0")), "error_mrad"));

@@ -19,7 +19,7 @@ from testing import ROOT, Scratch, ran, week
 RTL = ROOT / "rtl"
 VERILATOR, VENV = sys.argv.pop(1), Path(sys.argv.pop(1))
 PACKAGE = RTL / "generated/lever/cfg.sv"
-MAP = RTL / "generated/feltgate_map_pkg.sv"
+MAP = RTL / "generated/map.sv"
 
 # Top, constant of the package or parameter of the top that is changed, to what, and what must hold.
 BAD = (

@@ -85,7 +85,7 @@ class Slang(Scratch):
             self.assertIn("do_not_fit_this_board", lint("tang_nano_9k", package(design), *core(), *files))
 
     def test_bus_ports(self):
-        shared = RTL / "generated/feltgate_map_pkg.sv"
+        shared = RTL / "generated/map.sv"
         for path in sorted(RTL.glob("bus/*.sv")):
             with self.subTest(path.stem):
                 self.assertEqual(lint(path.stem, shared, path), "")

@@ -44,11 +44,11 @@ module soc_tb;
   initial begin
     repeat (5) @(negedge clk);
     rst = 1'b0;
-    cycle(1'b1, BASE + feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT, 32'd6554, 1'b1);
+    cycle(1'b1, BASE + 30'(map::A_TORQUE_LIMIT), 32'd6554, 1'b1);
     repeat (120) @(negedge clk);
-    cycle(1'b0, BASE + feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT, 32'd6554, 1'b1);
+    cycle(1'b0, BASE + 30'(map::A_TORQUE_LIMIT), 32'd6554, 1'b1);
     cycle(1'b0, BASE + 30'h800, 32'd0, 1'b0);
-    cycle(1'b1, BASE + 30'(feltgate_map_pkg::A_CONTROL), 32'd3, 1'b1);
+    cycle(1'b1, BASE + 30'(map::A_CONTROL), 32'd3, 1'b1);
     repeat (120) @(negedge clk);
     if (armed !== 1'b1) wrong++;
     if (wrong == 0) $display("soc: passed");

@@ -29,7 +29,7 @@ module feltgate_linked #(
   output logic        encoder_select_no,
   output logic        encoder_clock_o,
   output logic        encoder_command_o,
-  input  logic [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] current_data_i,
+  input  logic [cfg::CURRENT_LOOP*(cfg::PHASES-2):0] current_data_i,
   output logic        current_clock_o,
   input  logic        driver_fault_i,
   output logic        heartbeat_o,

@@ -13,8 +13,8 @@ module legs_proof (
     input logic               polarity_i,
     input logic signed [12:0] duty_i
 );
-  localparam int Period = feltgate_pkg::PWM_PERIOD;
-  localparam int Dead = feltgate_pkg::DEAD_CLOCKS;
+  localparam int Period = cfg::PWM_PERIOD;
+  localparam int Dead = cfg::DEAD_CLOCKS;
   localparam int DeadBits = (Dead > 1) ? $clog2(Dead) : 1;
 
   `include "reset.svh"

@@ -14,7 +14,7 @@ module period_proof (
     input logic               polarity_i,
     input logic signed [12:0] duty_i
 );
-  localparam int Period = feltgate_pkg::PWM_PERIOD;
+  localparam int Period = cfg::PWM_PERIOD;
   localparam int Half = Period / 2;
 
   `include "reset.svh"
@@ -23,7 +23,7 @@ module period_proof (
   logic signed [12:0] duty_active;
   pwm #(
       .Period(Period),
-      .DeadClocks(feltgate_pkg::DEAD_CLOCKS)
+      .DeadClocks(cfg::DEAD_CLOCKS)
   ) u_dut (
       .*,
       .gate_a_hi_o(),

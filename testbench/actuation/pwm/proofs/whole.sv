@@ -15,9 +15,9 @@ module whole_proof (
     input logic               polarity_i,
     input logic signed [12:0] duty_i
 );
-  localparam int Period = feltgate_pkg::PWM_PERIOD;
-  localparam int Dead = feltgate_pkg::DEAD_CLOCKS;
-  localparam int Shortest = feltgate_pkg::SHORTEST_CLOCKS;
+  localparam int Period = cfg::PWM_PERIOD;
+  localparam int Dead = cfg::DEAD_CLOCKS;
+  localparam int Shortest = cfg::SHORTEST_CLOCKS;
 
   `include "reset.svh"
 

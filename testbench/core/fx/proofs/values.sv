@@ -36,7 +36,7 @@ module values_proof (
       rounds: assert (cfg::ROUNDING == 0 ? rest > -64'sd16 && rest <= 64'sd16 :
                       cfg::ROUNDING == 1 ? rest > -64'sd32 && rest <= 64'sd0 :
                       rest >= -64'sd16 && rest <= 64'sd16 && (rest != 64'sd16 && rest != -64'sd16 || (rounded & 64'sd1) == '0));
-      rounds_up: cover (rest == 64'sd7);
+      rounds_off: cover (rest == -64'sd7);
       limits_down: cover (x < -limit);
     end
   end

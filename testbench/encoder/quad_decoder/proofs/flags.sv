@@ -140,8 +140,8 @@ module flags_proof (
       index_latches_position: assert (index_position == (rose_q && twice_q ? count_q - zero_q : latched_q));
       index_seen_is_sticky: assert (index_seen == ((rose_q && twice_q) || (seen_q && !clear_q)));
       slipped_index_is_flagged: assert (index_wrong == ((rose_q && twice_q && had_seen_q &&
-          (slip_q >= (13'sd1 <<< feltgate_map_pkg::INDEX_WIDTH_BITS) ||
-           slip_q < -(13'sd1 <<< feltgate_map_pkg::INDEX_WIDTH_BITS))) || (wrong_q && !clear_q)));
+          (slip_q >= (13'sd1 <<< map::INDEX_WIDTH_BITS) ||
+           slip_q < -(13'sd1 <<< map::INDEX_WIDTH_BITS))) || (wrong_q && !clear_q)));
       levels_are_taken: assert (levels == level[1:0]);
       inside_first: assert (!index_seen || first == first_q);
       inside_index: assert (index == rises);

@@ -13,9 +13,9 @@ module gates_proof (
     input logic [11:0] on_b_i,
     input logic [11:0] on_c_i
 );
-  localparam int Period = feltgate_pkg::PWM_PERIOD;
-  localparam int Dead = feltgate_pkg::DEAD_CLOCKS;
-  localparam int Shortest = feltgate_pkg::SHORTEST_CLOCKS;
+  localparam int Period = cfg::PWM_PERIOD;
+  localparam int Dead = cfg::DEAD_CLOCKS;
+  localparam int Shortest = cfg::SHORTEST_CLOCKS;
   localparam int Half = Period / 2;
   localparam logic [11:0] Most = 12'(Period - Dead - Shortest);
   localparam int DebtBits = $clog2(Shortest);

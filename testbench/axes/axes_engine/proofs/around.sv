@@ -22,7 +22,7 @@ module around_proof (
     input logic        write_i,
     input logic        read_i
 );
-  localparam int TorqueW = 2 * feltgate_pkg::TORQUE_W;
+  localparam int TorqueW = 2 * cfg::TORQUE_W;
 
 `include "reset.svh"
 

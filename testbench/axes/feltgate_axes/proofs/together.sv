@@ -20,7 +20,7 @@ module together_proof (
     input logic        write_i,
     input logic        read_i
 );
-  localparam int FirstW = feltgate_map_pkg::W_FAULTS_FIRST;
+  localparam int FirstW = map::W_FAULTS_FIRST;
 
 `include "reset.svh"
 
@@ -32,13 +32,13 @@ module together_proof (
   logic [2:0] gate_a_hi_o, gate_a_lo_o, gate_b_hi_o, gate_b_lo_o, armed_o, gates_enable_o, zeroed_o;
   logic [11:0] scene_o;
   logic [95:0] position_o, word_data_o;
-  logic [3*feltgate_pkg::VELOCITY_W-1:0] velocity_o;
-  logic [3*feltgate_pkg::TORQUE_W-1:0] tau_hat_o, tau_ref_o;
-  logic [3*feltgate_pkg::CURRENT_W-1:0] current_ref_o;
-  logic [3*feltgate_pkg::VOLTAGE_W-1:0] voltage_o;
-  logic [3*feltgate_pkg::DUTY_W-1:0] duty_o, duty_active_o;
-  logic [3*feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o;
-  logic [3*feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o;
+  logic [3*cfg::VELOCITY_W-1:0] velocity_o;
+  logic [3*cfg::TORQUE_W-1:0] tau_hat_o, tau_ref_o;
+  logic [3*cfg::CURRENT_W-1:0] current_ref_o;
+  logic [3*cfg::VOLTAGE_W-1:0] voltage_o;
+  logic [3*cfg::DUTY_W-1:0] duty_o, duty_active_o;
+  logic [3*map::W_STATUS_LIMITS-1:0] limits_o;
+  logic [3*map::W_FAULTS_SEEN-1:0] faults_o;
   logic [3*FirstW-1:0] first_fault_o;
   feltgate_axes #(.AxisCount(3), .Engine(1)) u_dut (
       .*,
@@ -61,8 +61,8 @@ module together_proof (
   (* hierconn *) wire [11:0] \u_dut.g_axis[0].u_core.reg_addr_i , \u_dut.g_axis[1].u_core.reg_addr_i , \u_dut.g_axis[2].u_core.reg_addr_i ;
   (* hierconn *) wire [31:0] \u_dut.g_axis[0].u_core.reg_wdata_i , \u_dut.g_axis[1].u_core.reg_wdata_i , \u_dut.g_axis[2].u_core.reg_wdata_i ;
   (* hierconn *) wire [31:0] \u_dut.g_axis[0].u_core.reg_rdata_o , \u_dut.g_axis[1].u_core.reg_rdata_o , \u_dut.g_axis[2].u_core.reg_rdata_o ;
-  (* hierconn *) wire [feltgate_pkg::VELOCITY_W-1:0] \u_dut.g_axis[0].u_core.velocity_o , \u_dut.g_axis[1].u_core.velocity_o , \u_dut.g_axis[2].u_core.velocity_o ;
-  (* hierconn *) wire [feltgate_pkg::TORQUE_W-1:0] \u_dut.g_axis[0].u_core.tau_hat_o , \u_dut.g_axis[1].u_core.tau_hat_o , \u_dut.g_axis[2].u_core.tau_hat_o ;
+  (* hierconn *) wire [cfg::VELOCITY_W-1:0] \u_dut.g_axis[0].u_core.velocity_o , \u_dut.g_axis[1].u_core.velocity_o , \u_dut.g_axis[2].u_core.velocity_o ;
+  (* hierconn *) wire [cfg::TORQUE_W-1:0] \u_dut.g_axis[0].u_core.tau_hat_o , \u_dut.g_axis[1].u_core.tau_hat_o , \u_dut.g_axis[2].u_core.tau_hat_o ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.enc_a_i , \u_dut.g_axis[1].u_core.enc_a_i , \u_dut.g_axis[2].u_core.enc_a_i ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.enc_b_i , \u_dut.g_axis[1].u_core.enc_b_i , \u_dut.g_axis[2].u_core.enc_b_i ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.enc_z_i , \u_dut.g_axis[1].u_core.enc_z_i , \u_dut.g_axis[2].u_core.enc_z_i ;
@@ -86,14 +86,14 @@ module together_proof (
   (* hierconn *) wire [3:0] \u_dut.g_axis[0].u_core.scene_o , \u_dut.g_axis[1].u_core.scene_o , \u_dut.g_axis[2].u_core.scene_o ;
   (* hierconn *) wire [31:0] \u_dut.g_axis[0].u_core.word_data_o , \u_dut.g_axis[1].u_core.word_data_o , \u_dut.g_axis[2].u_core.word_data_o ;
   (* hierconn *) wire [31:0] \u_dut.g_axis[0].u_core.position_o , \u_dut.g_axis[1].u_core.position_o , \u_dut.g_axis[2].u_core.position_o ;
-  (* hierconn *) wire [feltgate_pkg::TORQUE_W-1:0] \u_dut.g_axis[0].u_core.law_torque_i , \u_dut.g_axis[1].u_core.law_torque_i , \u_dut.g_axis[2].u_core.law_torque_i ;
-  (* hierconn *) wire [feltgate_pkg::TORQUE_W-1:0] \u_dut.g_axis[0].u_core.tau_ref_o , \u_dut.g_axis[1].u_core.tau_ref_o , \u_dut.g_axis[2].u_core.tau_ref_o ;
-  (* hierconn *) wire [feltgate_pkg::CURRENT_W-1:0] \u_dut.g_axis[0].u_core.current_ref_o , \u_dut.g_axis[1].u_core.current_ref_o , \u_dut.g_axis[2].u_core.current_ref_o ;
-  (* hierconn *) wire [feltgate_pkg::VOLTAGE_W-1:0] \u_dut.g_axis[0].u_core.voltage_o , \u_dut.g_axis[1].u_core.voltage_o , \u_dut.g_axis[2].u_core.voltage_o ;
-  (* hierconn *) wire [feltgate_pkg::DUTY_W-1:0] \u_dut.g_axis[0].u_core.duty_o , \u_dut.g_axis[1].u_core.duty_o , \u_dut.g_axis[2].u_core.duty_o ;
-  (* hierconn *) wire [feltgate_pkg::DUTY_W-1:0] \u_dut.g_axis[0].u_core.duty_active_o , \u_dut.g_axis[1].u_core.duty_active_o , \u_dut.g_axis[2].u_core.duty_active_o ;
-  (* hierconn *) wire [feltgate_map_pkg::W_STATUS_LIMITS-1:0] \u_dut.g_axis[0].u_core.limits_o , \u_dut.g_axis[1].u_core.limits_o , \u_dut.g_axis[2].u_core.limits_o ;
-  (* hierconn *) wire [feltgate_map_pkg::W_FAULTS_SEEN-1:0] \u_dut.g_axis[0].u_core.faults_o , \u_dut.g_axis[1].u_core.faults_o , \u_dut.g_axis[2].u_core.faults_o ;
+  (* hierconn *) wire [cfg::TORQUE_W-1:0] \u_dut.g_axis[0].u_core.law_torque_i , \u_dut.g_axis[1].u_core.law_torque_i , \u_dut.g_axis[2].u_core.law_torque_i ;
+  (* hierconn *) wire [cfg::TORQUE_W-1:0] \u_dut.g_axis[0].u_core.tau_ref_o , \u_dut.g_axis[1].u_core.tau_ref_o , \u_dut.g_axis[2].u_core.tau_ref_o ;
+  (* hierconn *) wire [cfg::CURRENT_W-1:0] \u_dut.g_axis[0].u_core.current_ref_o , \u_dut.g_axis[1].u_core.current_ref_o , \u_dut.g_axis[2].u_core.current_ref_o ;
+  (* hierconn *) wire [cfg::VOLTAGE_W-1:0] \u_dut.g_axis[0].u_core.voltage_o , \u_dut.g_axis[1].u_core.voltage_o , \u_dut.g_axis[2].u_core.voltage_o ;
+  (* hierconn *) wire [cfg::DUTY_W-1:0] \u_dut.g_axis[0].u_core.duty_o , \u_dut.g_axis[1].u_core.duty_o , \u_dut.g_axis[2].u_core.duty_o ;
+  (* hierconn *) wire [cfg::DUTY_W-1:0] \u_dut.g_axis[0].u_core.duty_active_o , \u_dut.g_axis[1].u_core.duty_active_o , \u_dut.g_axis[2].u_core.duty_active_o ;
+  (* hierconn *) wire [map::W_STATUS_LIMITS-1:0] \u_dut.g_axis[0].u_core.limits_o , \u_dut.g_axis[1].u_core.limits_o , \u_dut.g_axis[2].u_core.limits_o ;
+  (* hierconn *) wire [map::W_FAULTS_SEEN-1:0] \u_dut.g_axis[0].u_core.faults_o , \u_dut.g_axis[1].u_core.faults_o , \u_dut.g_axis[2].u_core.faults_o ;
   (* hierconn *) wire [FirstW-1:0] \u_dut.g_axis[0].u_core.first_fault_o , \u_dut.g_axis[1].u_core.first_fault_o , \u_dut.g_axis[2].u_core.first_fault_o ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.snapshot_valid_o ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.measured_o ;
@@ -118,7 +118,7 @@ module together_proof (
   (* hierconn *) wire \u_dut.g_engine.u_engine.measured_i ;
   (* hierconn *) wire [31:0] \u_dut.g_engine.u_engine.tick_count_i ;
   (* hierconn *) wire [95:0] \u_dut.g_engine.u_engine.position_i ;
-  (* hierconn *) wire [3*feltgate_pkg::TORQUE_W-1:0] \u_dut.g_engine.u_engine.torque_o ;
+  (* hierconn *) wire [3*cfg::TORQUE_W-1:0] \u_dut.g_engine.u_engine.torque_o ;
   (* hierconn *) wire \u_dut.g_engine.u_engine.late_o ;
   (* hierconn *) wire \u_dut.g_engine.u_engine.restart_o ;
   (* hierconn *) wire \u_dut.g_engine.u_engine.event_valid_o ;
@@ -196,8 +196,8 @@ module together_proof (
           {\u_dut.g_axis[0].u_core.snapshot_valid_o , \u_dut.g_axis[0].u_core.measured_o , \u_dut.g_axis[0].u_core.tick_count_o });
       torque_of_the_engine: assert ({\u_dut.g_axis[2].u_core.law_torque_i , \u_dut.g_axis[1].u_core.law_torque_i , \u_dut.g_axis[0].u_core.law_torque_i } == \u_dut.g_engine.u_engine.torque_o &&
           {\u_dut.g_axis[2].u_core.law_late_i , \u_dut.g_axis[1].u_core.law_late_i , \u_dut.g_axis[0].u_core.law_late_i , \u_dut.g_axis[2].u_core.law_restart_i , \u_dut.g_axis[1].u_core.law_restart_i , \u_dut.g_axis[0].u_core.law_restart_i } == {{3{\u_dut.g_engine.u_engine.late_o }}, {3{\u_dut.g_engine.u_engine.restart_o }}});
-      engine_knows_the_axes: assert (\u_dut.g_engine.u_engine.law_i == {scene_o[11:8] == feltgate_map_pkg::SCENE_LAW, scene_o[7:4] == feltgate_map_pkg::SCENE_LAW,
-                                                   scene_o[3:0] == feltgate_map_pkg::SCENE_LAW} &&
+      engine_knows_the_axes: assert (\u_dut.g_engine.u_engine.law_i == {scene_o[11:8] == map::SCENE_LAW, scene_o[7:4] == map::SCENE_LAW,
+                                                   scene_o[3:0] == map::SCENE_LAW} &&
           {\u_dut.g_engine.u_engine.armed_i , \u_dut.g_engine.u_engine.zeroed_i , \u_dut.g_engine.u_engine.position_i } == {armed_o, zeroed_o, position_o} &&
           {\u_dut.g_engine.u_engine.snapshot_i , \u_dut.g_engine.u_engine.measured_i , \u_dut.g_engine.u_engine.tick_count_i } == {snapshot_valid_o, measured_o, tick_count_o});
       events_of_the_engine: assert ({event_valid_o, event_number_o, event_value_o} ==

@@ -8,23 +8,23 @@
 module wires_proof (
     input logic       clk_i,
     input logic       rst_ni,
-    input logic [feltgate_pkg::AXES-1:0] enc_a_i,
-    input logic [feltgate_pkg::AXES-1:0] enc_b_i,
-    input logic [feltgate_pkg::AXES-1:0] enc_z_i,
+    input logic [cfg::AXES-1:0] enc_a_i,
+    input logic [cfg::AXES-1:0] enc_b_i,
+    input logic [cfg::AXES-1:0] enc_z_i,
     input logic       encoder_data_i,
-    input logic [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] current_data_i,
+    input logic [cfg::CURRENT_LOOP*(cfg::PHASES-2):0] current_data_i,
     input logic       driver_fault_i,
     input logic [2:0] hall_i,
     input logic       arm_i,
     input logic       stop_i,
-    input logic [feltgate_pkg::AXES-1:0] set_zero_i,
+    input logic [cfg::AXES-1:0] set_zero_i,
     input logic       clear_faults_i,
-    input logic [4*feltgate_pkg::AXES-1:0] scene_i,
+    input logic [4*cfg::AXES-1:0] scene_i,
     input logic       uart_rx_i,
     input logic [7:0] inputs_i
 );
 
-  localparam int A = feltgate_pkg::AXES;
+  localparam int A = cfg::AXES;
 
   `include "reset.svh"
 
@@ -33,9 +33,9 @@ module wires_proof (
   logic c_hi, c_lo, tx, snapshot_valid;
   logic select_n, serial_clock, command, current_clock, heartbeat;
   logic [32*A-1:0] position;
-  logic [A*feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
-  logic [A*feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
-  logic [A*feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault;
+  logic [A*map::W_STATUS_LIMITS-1:0] limits;
+  logic [A*map::W_FAULTS_SEEN-1:0] faults;
+  logic [A*map::W_FAULTS_FIRST-1:0] first_fault;
   logic [4*A-1:0] scene;
   feltgate_linked u_dut (
       .*,
@@ -60,7 +60,7 @@ module wires_proof (
   (* hierconn *) wire \u_dut.g_law.u_axes.stop_i ;
   (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.set_zero_i ;
   (* hierconn *) wire [4*A-1:0] \u_dut.g_law.u_axes.scene_i ;
-  (* hierconn *) wire [A*feltgate_pkg::TORQUE_W-1:0] \u_dut.g_law.u_axes.law_torque_i ;
+  (* hierconn *) wire [A*cfg::TORQUE_W-1:0] \u_dut.g_law.u_axes.law_torque_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.law_late_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.law_restart_i ;
   (* hierconn *) wire [31:0] \u_dut.g_law.u_axes.reg_wdata_i ;
@@ -77,9 +77,9 @@ module wires_proof (
   (* hierconn *) wire [32*A-1:0] \u_dut.g_law.u_axes.word_data_o ;
   (* hierconn *) wire [32*A-1:0] \u_dut.g_law.u_axes.position_o ;
   (* hierconn *) wire [4*A-1:0] \u_dut.g_law.u_axes.scene_o ;
-  (* hierconn *) wire [A*feltgate_map_pkg::W_STATUS_LIMITS-1:0] \u_dut.g_law.u_axes.limits_o ;
-  (* hierconn *) wire [A*feltgate_map_pkg::W_FAULTS_SEEN-1:0] \u_dut.g_law.u_axes.faults_o ;
-  (* hierconn *) wire [A*feltgate_map_pkg::W_FAULTS_FIRST-1:0] \u_dut.g_law.u_axes.first_fault_o ;
+  (* hierconn *) wire [A*map::W_STATUS_LIMITS-1:0] \u_dut.g_law.u_axes.limits_o ;
+  (* hierconn *) wire [A*map::W_FAULTS_SEEN-1:0] \u_dut.g_law.u_axes.faults_o ;
+  (* hierconn *) wire [A*map::W_FAULTS_FIRST-1:0] \u_dut.g_law.u_axes.first_fault_o ;
   (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.armed_o ;
   (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.gates_enable_o ;
   (* hierconn *) wire [15:0] \u_dut.g_law.u_axes.reg_addr_i ;
@@ -93,7 +93,7 @@ module wires_proof (
   wire core_stop_i = \u_dut.g_law.u_axes.stop_i ;
   wire [A-1:0] core_set_zero_i = \u_dut.g_law.u_axes.set_zero_i ;
   wire [4*A-1:0] core_scene_i = \u_dut.g_law.u_axes.scene_i ;
-  wire [A*feltgate_pkg::TORQUE_W-1:0] core_law_torque_i = \u_dut.g_law.u_axes.law_torque_i ;
+  wire [A*cfg::TORQUE_W-1:0] core_law_torque_i = \u_dut.g_law.u_axes.law_torque_i ;
   wire core_law_late_i = \u_dut.g_law.u_axes.law_late_i ;
   wire core_law_restart_i = \u_dut.g_law.u_axes.law_restart_i ;
   wire [31:0] core_reg_wdata_i = \u_dut.g_law.u_axes.reg_wdata_i ;
@@ -110,9 +110,9 @@ module wires_proof (
   wire [32*A-1:0] core_word_data_o = \u_dut.g_law.u_axes.word_data_o ;
   wire [32*A-1:0] core_position_o = \u_dut.g_law.u_axes.position_o ;
   wire [4*A-1:0] core_scene_o = \u_dut.g_law.u_axes.scene_o ;
-  wire [A*feltgate_map_pkg::W_STATUS_LIMITS-1:0] core_limits_o = \u_dut.g_law.u_axes.limits_o ;
-  wire [A*feltgate_map_pkg::W_FAULTS_SEEN-1:0] core_faults_o = \u_dut.g_law.u_axes.faults_o ;
-  wire [A*feltgate_map_pkg::W_FAULTS_FIRST-1:0] core_first_fault_o = \u_dut.g_law.u_axes.first_fault_o ;
+  wire [A*map::W_STATUS_LIMITS-1:0] core_limits_o = \u_dut.g_law.u_axes.limits_o ;
+  wire [A*map::W_FAULTS_SEEN-1:0] core_faults_o = \u_dut.g_law.u_axes.faults_o ;
+  wire [A*map::W_FAULTS_FIRST-1:0] core_first_fault_o = \u_dut.g_law.u_axes.first_fault_o ;
   wire [A-1:0] core_armed_o = \u_dut.g_law.u_axes.armed_o ;
   wire [A-1:0] core_gates_enable_o = \u_dut.g_law.u_axes.gates_enable_o ;
   wire [15:0] core_reg_addr_i = \u_dut.g_law.u_axes.reg_addr_i ;
@@ -122,7 +122,7 @@ module wires_proof (
   localparam logic [15:0] AddressMask = 16'hffff;
 `else
   (* hierconn *) wire \u_dut.g_core.u_core.encoder_data_i ;
-  (* hierconn *) wire [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] \u_dut.g_core.u_core.current_data_i ;
+  (* hierconn *) wire [cfg::CURRENT_LOOP*(cfg::PHASES-2):0] \u_dut.g_core.u_core.current_data_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.driver_fault_i ;
   (* hierconn *) wire [2:0] \u_dut.g_core.u_core.hall_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.encoder_select_no ;
@@ -139,7 +139,7 @@ module wires_proof (
   (* hierconn *) wire \u_dut.g_core.u_core.stop_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.set_zero_i ;
   (* hierconn *) wire [3:0] \u_dut.g_core.u_core.scene_i ;
-  (* hierconn *) wire [feltgate_pkg::TORQUE_W-1:0] \u_dut.g_core.u_core.law_torque_i ;
+  (* hierconn *) wire [cfg::TORQUE_W-1:0] \u_dut.g_core.u_core.law_torque_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.law_late_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.law_restart_i ;
   (* hierconn *) wire [31:0] \u_dut.g_core.u_core.reg_wdata_i ;
@@ -156,9 +156,9 @@ module wires_proof (
   (* hierconn *) wire [31:0] \u_dut.g_core.u_core.word_data_o ;
   (* hierconn *) wire [31:0] \u_dut.g_core.u_core.position_o ;
   (* hierconn *) wire [3:0] \u_dut.g_core.u_core.scene_o ;
-  (* hierconn *) wire [feltgate_map_pkg::W_STATUS_LIMITS-1:0] \u_dut.g_core.u_core.limits_o ;
-  (* hierconn *) wire [feltgate_map_pkg::W_FAULTS_SEEN-1:0] \u_dut.g_core.u_core.faults_o ;
-  (* hierconn *) wire [feltgate_map_pkg::W_FAULTS_FIRST-1:0] \u_dut.g_core.u_core.first_fault_o ;
+  (* hierconn *) wire [map::W_STATUS_LIMITS-1:0] \u_dut.g_core.u_core.limits_o ;
+  (* hierconn *) wire [map::W_FAULTS_SEEN-1:0] \u_dut.g_core.u_core.faults_o ;
+  (* hierconn *) wire [map::W_FAULTS_FIRST-1:0] \u_dut.g_core.u_core.first_fault_o ;
   (* hierconn *) wire \u_dut.g_core.u_core.armed_o ;
   (* hierconn *) wire \u_dut.g_core.u_core.gates_enable_o ;
   (* hierconn *) wire [11:0] \u_dut.g_core.u_core.reg_addr_i ;
@@ -174,7 +174,7 @@ module wires_proof (
   wire core_stop_i = \u_dut.g_core.u_core.stop_i ;
   wire core_set_zero_i = \u_dut.g_core.u_core.set_zero_i ;
   wire [3:0] core_scene_i = \u_dut.g_core.u_core.scene_i ;
-  wire [feltgate_pkg::TORQUE_W-1:0] core_law_torque_i = \u_dut.g_core.u_core.law_torque_i ;
+  wire [cfg::TORQUE_W-1:0] core_law_torque_i = \u_dut.g_core.u_core.law_torque_i ;
   wire core_law_late_i = \u_dut.g_core.u_core.law_late_i ;
   wire core_law_restart_i = \u_dut.g_core.u_core.law_restart_i ;
   wire [31:0] core_reg_wdata_i = \u_dut.g_core.u_core.reg_wdata_i ;
@@ -191,9 +191,9 @@ module wires_proof (
   wire [31:0] core_word_data_o = \u_dut.g_core.u_core.word_data_o ;
   wire [31:0] core_position_o = \u_dut.g_core.u_core.position_o ;
   wire [3:0] core_scene_o = \u_dut.g_core.u_core.scene_o ;
-  wire [feltgate_map_pkg::W_STATUS_LIMITS-1:0] core_limits_o = \u_dut.g_core.u_core.limits_o ;
-  wire [feltgate_map_pkg::W_FAULTS_SEEN-1:0] core_faults_o = \u_dut.g_core.u_core.faults_o ;
-  wire [feltgate_map_pkg::W_FAULTS_FIRST-1:0] core_first_fault_o = \u_dut.g_core.u_core.first_fault_o ;
+  wire [map::W_STATUS_LIMITS-1:0] core_limits_o = \u_dut.g_core.u_core.limits_o ;
+  wire [map::W_FAULTS_SEEN-1:0] core_faults_o = \u_dut.g_core.u_core.faults_o ;
+  wire [map::W_FAULTS_FIRST-1:0] core_first_fault_o = \u_dut.g_core.u_core.first_fault_o ;
   wire core_armed_o = \u_dut.g_core.u_core.armed_o ;
   wire core_gates_enable_o = \u_dut.g_core.u_core.gates_enable_o ;
   wire core_axis_fault_i = \u_dut.g_core.u_core.axis_fault_i ;
@@ -217,14 +217,14 @@ module wires_proof (
   (* hierconn *) wire \u_dut.u_link_receiver.valid_o ;
   (* hierconn *) wire \u_dut.u_link_receiver.write_o ;
   (* hierconn *) wire [7:0] \u_dut.u_link_receiver.sequence_o ;
-  (* hierconn *) wire [14+feltgate_pkg::ENGINE-1:0] \u_dut.u_link_receiver.address_o ;
+  (* hierconn *) wire [14+cfg::ENGINE-1:0] \u_dut.u_link_receiver.address_o ;
   (* hierconn *) wire [31:0] \u_dut.u_link_receiver.data_o ;
   (* hierconn *) wire \u_dut.u_link_receiver.good_o ;
   (* hierconn *) wire \u_dut.u_link_receiver.bad_o ;
   (* hierconn *) wire \u_dut.u_link_port.valid_i ;
   (* hierconn *) wire \u_dut.u_link_port.write_i ;
   (* hierconn *) wire [7:0] \u_dut.u_link_port.sequence_i ;
-  (* hierconn *) wire [14+feltgate_pkg::ENGINE-1:0] \u_dut.u_link_port.address_i ;
+  (* hierconn *) wire [14+cfg::ENGINE-1:0] \u_dut.u_link_port.address_i ;
   (* hierconn *) wire [31:0] \u_dut.u_link_port.data_i ;
   (* hierconn *) wire \u_dut.u_link_port.good_i ;
   (* hierconn *) wire \u_dut.u_link_port.bad_i ;
@@ -322,10 +322,10 @@ module wires_proof (
       encoder_passes: assert ({core_enc_a_i, core_enc_b_i, core_enc_z_i} == {enc_a_i, enc_b_i, enc_z_i});
 `ifdef LAW
       options_pass: assert ({current_clock, heartbeat} == 2'b00 &&
-          (feltgate_pkg::ABSOLUTE_ENCODER == 0 ? {select_n, serial_clock, command} == 3'b100 :
+          (cfg::ABSOLUTE_ENCODER == 0 ? {select_n, serial_clock, command} == 3'b100 :
            {select_n, serial_clock, command, encoder_data_i} == {\u_dut.g_law.u_axes.encoder_select_no [0], \u_dut.g_law.u_axes.encoder_clock_o [0],
             \u_dut.g_law.u_axes.encoder_command_o [0], \u_dut.g_law.u_axes.encoder_data_i [0]}) &&
-          (feltgate_pkg::PHASES != 3 ? {c_hi, c_lo} == 2'b00 :
+          (cfg::PHASES != 3 ? {c_hi, c_lo} == 2'b00 :
            {c_hi, c_lo} == {\u_dut.g_law.u_axes.gate_c_hi_o [0], \u_dut.g_law.u_axes.gate_c_lo_o [0]}));
 `else
       options_pass: assert ({\u_dut.g_core.u_core.encoder_data_i , \u_dut.g_core.u_core.current_data_i , \u_dut.g_core.u_core.driver_fault_i , \u_dut.g_core.u_core.hall_i } ==

@@ -10,14 +10,14 @@ module view_proof (
     input logic                             rst_ni,
     input logic                             word_valid_i,
     input logic [                      5:0] word_slot_i,
-    input logic [feltgate_pkg::AXES*32-1:0] word_data_i,
+    input logic [cfg::AXES*32-1:0] word_data_i,
     input logic                             event_valid_i,
     input logic [                      8:0] event_number_i,
     input logic [                     15:0] addr_i,
     input logic [                     31:0] wdata_i,
     input logic                             write_i
 );
-  localparam int Axes = feltgate_pkg::AXES;
+  localparam int Axes = cfg::AXES;
   localparam int Delay = 13;  // from the last word of a tick to the last of the view
   localparam logic [15:0] Choices = 16'h1030;
   localparam logic [3:0] Tick = 4'd2;

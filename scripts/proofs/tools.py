@@ -23,8 +23,8 @@ TIME_LIMIT_S = 1800
 SMTBMC = ("-s", "z3", "--unroll", "--noprogress")
 
 # Below rtl/, in reading order.
-PACKAGES = ("generated/feltgate_link_pkg.sv", "generated/feltgate_engine_pkg.sv", "generated/{}/cfg.sv",
-            "generated/map.sv", "core/fx.sv")
+PACKAGES = ("generated/{}/cfg.sv", "generated/map.sv", "generated/feltgate_link_pkg.sv",
+            "generated/feltgate_engine_pkg.sv", "core/fx.sv")
 
 
 class Broken(Exception):

@@ -120,15 +120,14 @@ module steps_proof (
       shows_the_limit: assert (!started_q || limit_torque == over_q);
       inside_scene: assert ( \u_dut.scene_q == scene_q);
       inside_at: assert ( \u_dut.at == at_q && (at_q == '0 || (sampled_q && at_q != 2'd3)) && (!done_q || at_q == '0));
-      inside_limit: assert ((T + 1)'($signed({2'b0, \u_dut.limit_q })) == limit_q);
+      target_is_the_least: assert ((T + 1)'($signed({2'b0, \u_dut.limit_q })) == limit_q &&
+                                   (at_q == '0 || (W + 1)'($signed( \u_dut.target_q )) <<< Fine == target_q));
       inside_force: assert (at_q == '0 || (in_force_q >= 0 && target_q <= most && target_q >= -most));
-      inside_target: assert (at_q == '0 || (W + 1)'($signed( \u_dut.target_q )) <<< Fine == target_q);
       inside_excess: assert (!at_q[1] || (W + 2)'($signed( \u_dut.excess_q )) == (W + 2)'(fine) - (W + 2)'(target_q));
       inside_zero: assert (!zero_q || done_q || (fine == '0 && ramping));
       inside_disarmed: assert (ramping || (sampled_q ? armed_i : !done_q || armed_q));
       if (done_q) begin
         within_the_least_limit: assert (!(before_q <= most && before_q >= -most) || (fine <= most && fine >= -most));
-        target_is_the_least: assert (target_q <= most && target_q >= -most);
         a_step_at_most: assert (!(ramps_q && armed_q) || (moved <= step_q && moved >= -step_q));
         never_past_the_target: assert (before_q <= target_q ? fine >= before_q && fine <= target_q
                                                             : fine <= before_q && fine >= target_q);

@@ -146,10 +146,11 @@ module causes_proof (
   // Silence: ticks since the last kick, or since the gates opened.
   localparam logic [25:0] Patience = (26'd1 << map::KICKLESS_BITS) - 26'd1;  // of the word
   logic [25:0] silence_q;
-  logic awake_q, silent_q, asked_q, duty_q;
+  logic awake_q, silent_q, asked_q, duty_q, regular_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {awake_q, silent_q, asked_q, duty_q, silence_q} <= '0;
+    if (!rst_ni) {awake_q, silent_q, asked_q, duty_q, silence_q, regular_q} <= 1;
     else begin
+      regular_q <= regular_q && (!tick || (asked_q && !tick_i.duty));  // a duty in each tick, before its end
       duty_q <= tick_i.duty;
       if (commands_i.kick) awake_q <= 1'b1;
       if (tick) silence_q <= commands_i.kick || !gates ? 26'd0 : silence_q + 26'd1;
@@ -159,7 +160,6 @@ module causes_proof (
   end
   (* hierconn *) wire [map::KICKLESS_BITS:0] \u_dut.u_watchdog.ticks_q ;
   (* hierconn *) wire \u_dut.awake ;
-  always_comb assume (!tick || (asked_q && !tick_i.duty));
 
   // Ticks that stand: period_start comes in every Period-th clock, as pwm.period proves.
   localparam int Period = cfg::PWM_PERIOD;
@@ -224,9 +224,9 @@ module causes_proof (
       hot_in_its_clock: assert (trip[map::FAULT_I2T] == (sampled_q[6] && hot_q));
       inside_one: assert ((sampled_q & (sampled_q - 7'd1)) == 0);
       inside_heat: assert ( \u_dut.u_motor_heat.at == sampled_q);
-      silence_in_its_clock: assert (trip[map::FAULT_WATCHDOG] == (duty_q && gates && awake_q && silent_q));
+      silence_in_its_clock: assert (!regular_q || trip[map::FAULT_WATCHDOG] == (duty_q && gates && awake_q && silent_q));
       awake_from_the_first_kick: assert ( \u_dut.awake == awake_q);
-      inside_silence: assert (!gates || !awake_q || (26'( \u_dut.u_watchdog.ticks_q ) == silence_q &&
+      inside_silence: assert (!regular_q || !gates || !awake_q || (26'( \u_dut.u_watchdog.ticks_q ) == silence_q &&
                               silence_q <= Patience &&
                               (silence_q != Patience || !asked_q || (duty_q && silent_q))));
       standing_trips: assert (!gates || open_q <= 16'((Periods + 1) * Period));

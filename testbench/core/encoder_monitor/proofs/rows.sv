@@ -7,7 +7,7 @@
 module rows_proof (
     input logic                                      clk_i,
     input logic                                      rst_ni,
-    input logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input logic at_levels_i,
     input logic [                              31:0] first_i,  // the tick in which a reset ends
     input logic [                               1:0] levels_i,
     input logic                                      index_wrong_i,
@@ -16,26 +16,26 @@ module rows_proof (
     input logic [                               1:0] step_i,
     input logic                                      set_zero_i
 );
-  localparam int Chatter = feltgate_map_pkg::ONE_CHANNEL_EDGES;
-  localparam int Dead = feltgate_map_pkg::DEAD_CHANNEL_EDGES;
+  localparam int Chatter = map::ONE_CHANNEL_EDGES;
+  localparam int Dead = map::DEAD_CHANNEL_EDGES;
   localparam int EdgeBits = 6;  // the block's own, of 4096 counts in a turn
   localparam int ChatterBits = EdgeBits + 2;
   // Ticks without an edge after which a row may have ended, and surely has; ticks of chatter, likewise.
-  localparam int LateMin = (feltgate_map_pkg::EDGE_UNITS - 1) << EdgeBits;
-  localparam int LateMax = feltgate_map_pkg::EDGE_UNITS << EdgeBits;
-  localparam int LongMax = (feltgate_map_pkg::CHATTER_UNITS << ChatterBits) + 1;
+  localparam int LateMin = (map::EDGE_UNITS - 1) << EdgeBits;
+  localparam int LateMax = map::EDGE_UNITS << EdgeBits;
+  localparam int LongMax = (map::CHATTER_UNITS << ChatterBits) + 1;
 
   // One sample per tick; the ticks count on.
   `include "reset.svh"
   logic sample, sampled_q, after_q;
   logic [31:0] ticks_q;
-  assign sample = wave_i[feltgate_map_pkg::EVENT_AT_LEVELS];
+  assign sample = at_levels_i;
   always_ff @(posedge clk_i) ticks_q <= !rst_ni ? first_i : sample ? ticks_q + 32'd1 : ticks_q;
 
   logic moved, chatters, trip, index_trip, flip_trip;
   encoder_monitor u_dut (
       .*,
-      .at_levels_i(wave_i[feltgate_map_pkg::EVENT_AT_LEVELS]),
+      .at_levels_i(at_levels_i),
       .tick_count_i(ticks_q),
       .flip_trip_o(flip_trip),
       .moved_o(moved),
@@ -44,8 +44,8 @@ module rows_proof (
       .index_trip_o(index_trip)
   );
   localparam int RowW = $clog2(Dead);
-  localparam int EdgeW = $clog2(feltgate_map_pkg::EDGE_UNITS + 1);
-  localparam int ChatterW = $clog2(feltgate_map_pkg::CHATTER_UNITS + 1);
+  localparam int EdgeW = $clog2(map::EDGE_UNITS + 1);
+  localparam int ChatterW = $clog2(map::CHATTER_UNITS + 1);
   (* hierconn *) wire [RowW-1:0] \u_dut.row_q ;
   wire [RowW-1:0] row = \u_dut.row_q ;
   (* hierconn *) wire [EdgeW-1:0] \u_dut.edge_units_q ;
@@ -147,13 +147,13 @@ module rows_proof (
       dies: cover (trip && edge_then_q);
       wears_out: cover (chatters && long_q == 14'd2);
       inside_row: assert (same_q >= 6'(row) && row < RowW'(Dead));
-      inside_edge: assert (edge_units == EdgeW'(feltgate_map_pkg::EDGE_UNITS) ? still_q > 12'(LateMin)
-          : edge_units < EdgeW'(feltgate_map_pkg::EDGE_UNITS) &&
+      inside_edge: assert (edge_units == EdgeW'(map::EDGE_UNITS) ? still_q > 12'(LateMin)
+          : edge_units < EdgeW'(map::EDGE_UNITS) &&
             still_q <= (12'(edge_units) << EdgeBits) + 12'(EdgeBits'(ticks_q - 32'd1)) &&
             still_q + 12'd63 >= (12'(edge_units) << EdgeBits) + 12'(EdgeBits'(ticks_q - 32'd1)));
-      inside_long: assert ((!chatters || chatter_units <= ChatterW'(feltgate_map_pkg::CHATTER_UNITS)) &&
+      inside_long: assert ((!chatters || chatter_units <= ChatterW'(map::CHATTER_UNITS)) &&
           (!chatters || long_q <= (14'(chatter_units) << ChatterBits) + 14'(ChatterBits'(ticks_q - 32'd1))) &&
-          (!chatters || chatter_units != ChatterW'(feltgate_map_pkg::CHATTER_UNITS) ||
+          (!chatters || chatter_units != ChatterW'(map::CHATTER_UNITS) ||
            ChatterBits'(ticks_q) == ChatterBits'(1)) && (chatters || long_q <= 14'(LongMax)));
     end
     if (rst_ni && past_ok_q) begin

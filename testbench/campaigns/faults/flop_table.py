@@ -64,9 +64,9 @@ def member(name, members):
 
 
 def rank(name, bits):
-    """A register by its own name, before the ports that it comes out of; deeper before higher, a field before its struct."""
-    kind = 0 if re.search(r"_q\d?$", name) else 1 if name.endswith("_o") else 2
-    return (kind, -name.count("."), len(bits), len(name), name)
+    """A register by its own name, before what it is wired to; deeper before higher, a field before its struct."""
+    wired = not re.search(r"_q\d?$", name)
+    return (wired, name.endswith("_i"), -name.count("."), not name.endswith("_o"), len(bits), len(name), name)
 
 
 def in_its_block(name):

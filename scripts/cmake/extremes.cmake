@@ -11,13 +11,16 @@ feltgate_verilate(extremes_decoder quad_decoder
   -GResetPosition=2147483000)
 set(extremes_blocks extremes_decoder)
 file(READ "${FELTGATE_ROOT}/rtl/generated/lever/cfg.sv" extremes_lever)
-foreach(rounding half_up down convergent)
-  list(LENGTH extremes_blocks number)
-  math(EXPR number "${number} - 1")
+set(extremes_roundings half_up down convergent)
+foreach(number 0 1 2)
+  list(GET extremes_roundings ${number} rounding)
   string(REPLACE " ROUNDING = 0;" " ROUNDING = ${number};" package "${extremes_lever}")
-  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/extremes_filter/${rounding}/cfg.sv" CONTENT "${package}" @ONLY)
-  feltgate_verilate(extremes_filter_${rounding} filter_alone
-    "${PROJECT_BINARY_DIR}/extremes_filter/${rounding}/cfg.sv;${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/core/fx.sv;${FELTGATE_ROOT}/rtl/core/travel_window.sv;${FELTGATE_ROOT}/rtl/core/velocity_estimator.sv;${extremes_folder}/filter_alone.sv"
+  set(sources "${PROJECT_BINARY_DIR}/extremes_filter/${rounding}/cfg.sv")
+  file(CONFIGURE OUTPUT "${sources}" CONTENT "${package}" @ONLY)
+  foreach(name generated/map core/fx core/travel_window core/velocity_estimator)
+    list(APPEND sources "${FELTGATE_ROOT}/rtl/${name}.sv")
+  endforeach()
+  feltgate_verilate(extremes_filter_${rounding} filter_alone "${sources};${extremes_folder}/filter_alone.sv"
     CLASS Vfilter_${rounding})
   list(APPEND extremes_blocks extremes_filter_${rounding})
 endforeach()

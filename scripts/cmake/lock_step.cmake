@@ -6,7 +6,7 @@
 # Verilates the block of each design (default lever and paper), writes its ports for C++ and links both with
 # <block>_test.cpp as the CTest <block>.<design>, labels unit and lockstep. SOURCES lie in rtl/, before the block, and
 # FILE, the block, where two have its name. FOLDER has cfg.sv and header of a design that only tests use. Of the first
-# design the CTest mutate.<block>.<design> tries mutants. docs/testing.md
+# design the CTest mutate.<block>.<design> tries mutants; <block>.<design>_cover counts what is reached. docs/testing.md
 include_guard(GLOBAL)
 
 function(feltgate_lock_step block)
@@ -56,6 +56,7 @@ function(feltgate_lock_step block)
     target_link_libraries(${name}_object PRIVATE feltgate_catch_main ${name}_rtl)
     add_executable(${name}_test $<TARGET_OBJECTS:${name}_object>)
     target_link_libraries(${name}_test PRIVATE feltgate_catch_main ${name}_rtl)
+    feltgate_cover_program(${name} ${block} "${sources}" PARAMS ${arg_PARAMS})
     set(when "")
     if(design STREQUAL first)
       feltgate_mutants(${name} ${block} "${sources}" "" ${arg_PARAMS})

@@ -17,6 +17,7 @@
 
 #include "Vpoint.h"
 #include POINT_HEADER
+#include "design/design.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/causes.hpp"
 #include "feltgate/largest.hpp"

@@ -64,9 +64,9 @@ def member(name, members):
 
 
 def rank(name, bits):
-    """A register by its own name, before the ports that it comes out of; deeper before higher, a field before its struct."""
-    kind = 0 if re.search(r"_q\d?$", name) else 1 if name.endswith("_o") else 2
-    return (kind, -name.count("."), len(bits), len(name), name)
+    """A register by its own name, before its block's output, before what that is wired to, a struct of the device last."""
+    own, output = re.search(r"_q\d?$", name), name.endswith("_o") and "." in name
+    return (not own, not output, name.endswith("_i"), -name.count("."), len(bits), len(name), name)
 
 
 def in_its_block(name):

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "design/generate.hpp"
+#include "design/generate_cfg.hpp"
 #include "design/host_words.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "host/board/recording.hpp"
@@ -165,7 +166,10 @@ Ending config_ending(Use use) {
 /// Elaborates as far as it goes and makes every text that would be written.
 void make_all(const design::Design& d, const design::RegisterMap& registers) {
   (void)causes_header(registers);
+  (void)map_package(registers);
+  (void)map_header(registers);
   const design::Elaborated e = elaborate(d, registers);
+  (void)cfg_package(e);
   (void)cpp_header(e);
   (void)values_text(e);
   (void)register_page(e);

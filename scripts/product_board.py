@@ -11,6 +11,7 @@ import shutil
 from pathlib import Path
 
 import outputs
+import rtl_sources
 from synth_tools import ToolError, package_of
 
 BOARD = "de0_nano"
@@ -67,11 +68,13 @@ def write(root, design, output, temporary):
         copied[source.name] = source
         return f"{found[1]}rtl/{source.name}"
 
-    settings = SOURCE.sub(moved, settings)
+    settings = SOURCE.sub(moved, settings).replace("SEARCH_PATH ../../tops", "SEARCH_PATH rtl")
     if "cfg.sv" not in copied:
         raise ToolError(f"{BOARD}.qsf has no cfg.sv among its sources; put it back")
     for source in [*copied.values(), parameters]:
         shutil.copyfile(source, output / "rtl" / source.name)
+    device = output / "rtl" / Path(rtl_sources.INCLUDE).name
+    outputs.write_whole(device, rtl_sources.device_text(root, text))
     settings += (
         "\n# Where Quartus stops at the first values of the parameters, take them from the file, which is of the\n"
         "# same design as rtl/cfg.sv; never mix two folders:\n"

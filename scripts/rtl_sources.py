@@ -34,6 +34,17 @@ def device_of(package):
     return next((name for name, options in DEVICES if all(has(*option) for option in options.items())), "")
 
 
+def device_text(root, package):
+    """device.svh with the device of the design, of whose package this is the text."""
+    define = device_of(package)
+    return (f"`define {define}\n" if define else "") + (root / "rtl" / INCLUDE).read_text(encoding="utf-8")
+
+
+def top_of(package):
+    """The top of rtl/tops of a design, of whose package this is the text."""
+    return (device_of(package).removeprefix("FELTGATE_").lower() or "lever") + "_top"
+
+
 def code_only(text):
     """SystemVerilog without comments."""
     return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)

@@ -156,7 +156,7 @@ def synthesis_inputs(generated, folder, tools):
         shutil.copy(ROOT / "rtl" / name, folder)
     target = synth_measure.scene_target(ROOT)
     names = ["cfg.sv", *(Path(name).name for name in names)]
-    read = synth_measure.read_commands(names, target)
+    read = synth_measure.read_commands(names)
     synth_measure.write_tops(tools, "core", target, read)
     return read
 

@@ -80,7 +80,6 @@ def main():
     parser.add_argument("--block")
     parser.add_argument("--board", choices=BOARDS, help="instead of a block")
     parser.add_argument("--output", type=Path, required=True)
-    parser.add_argument("--registered", action="store_true", help="MULT18X18D with its registers")
     parser.add_argument("--parameter", action="append", default=[], help="of RTL and netlist")
     parser.add_argument("--defect", nargs=2, metavar=("FILE", "NAME"), help="of the netlist alone")
     options = parser.parse_args()
@@ -90,14 +89,13 @@ def main():
     output.mkdir(parents=True, exist_ok=True)
     try:
         tools = Tools(output)
-        target = synth_measure.Target(block, block, registered=options.registered)
         if options.board:
             sources = synth_board.sources(options.root, block, design, output)
             stub = options.root / "testbench/boards/boards/stub" / pll
             (output / pll).write_text(stub.read_text(encoding="utf-8"), encoding="utf-8")
         else:
             sources = synth_measure.copy_sources(options.root, design, output)
-        read = synth_measure.read_commands(sources, target)
+        read = synth_measure.read_commands(sources)
         for model in models:
             (output / model).write_text(
                 (Path(__file__).parent / model).read_text(encoding="utf-8"), encoding="utf-8"

@@ -36,7 +36,7 @@ class Budget(Scratch):
 
     def test_written_and_read_again(self):
         path = self.folder / "areas.json"
-        measured = {"lever": {"core without read-back, inferred": ROW}}
+        measured = {"lever": {"core without read-back": ROW}}
         merged = synth_budget.merge(synth_budget.read(path), measured, TOOLS)
         synth_budget.write(path, merged)
         self.assertEqual(synth_budget.read(path), merged)

@@ -24,6 +24,7 @@ BOARD_CLOCKS = ("clk_25mhz", "clk_27mhz")  # clk in pair.sv
 CLOCKS = ("clk_i", "rst_ni", *BOARD_CLOCKS)
 MODELS = ("mult18x18d_model.sv", "dp16kd_model.sv")
 GOWIN_MODELS = ("gowin_cells_model.sv",)
+HARNESS = Path("model/sim/backends/feltgate_core.sv")
 # The stub of a board's PLL; the family is that of Tools.write_simulation().
 BOARDS = {"ulx3s": ("EHXPLLL.sv", "ecp5", MODELS), "tang_nano_9k": ("rPLL.sv", "gowin", GOWIN_MODELS)}
 
@@ -95,6 +96,9 @@ def main():
             (output / pll).write_text(stub.read_text(encoding="utf-8"), encoding="utf-8")
         else:
             sources = synth_measure.copy_sources(options.root, design, output)
+            if block == HARNESS.stem:  # the device of the design with a port for each pin and signal
+                (output / HARNESS.name).write_text((options.root / HARNESS).read_text(encoding="utf-8"), encoding="utf-8")
+                sources.append(HARNESS.name)
         read = synth_measure.read_commands(sources)
         for model in models:
             (output / model).write_text(

@@ -47,7 +47,7 @@ class Budget(Scratch):
 
 class Wrapper(unittest.TestCase):
     def test_every_open_port_is_a_port_of_the_core(self):
-        core = (ROOT / "rtl/core/feltgate_core.sv").read_text(encoding="utf-8")
+        core = (ROOT / "rtl/tops/lever_top.sv").read_text(encoding="utf-8")
         for port in synth_measure.SNAPSHOT_PORTS:
             self.assertRegex(core, rf"\boutput logic [^;]*\b{port}\b")
 

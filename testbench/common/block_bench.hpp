@@ -5,7 +5,7 @@
 // after every edge and between the edges. A twin is
 //   struct Twin : BlockTwin<ports::NAME> { void clock(const In&); Out out(const In&) const; };
 // and may have
-//   reset(const In&)              where a reset is not a twin as at the begin
+//   reset(const In&)              a clock with the reset, where it is not a twin as at the begin
 //   legal(In&, Random&)           makes inputs that the block is not made for into legal ones
 //   holds, strobes(In&, clock)    of a tick block: its inputs hold for so many clocks from 0 on
 //   between(const In&)            for inputs that act without a clock
@@ -313,12 +313,9 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {},
         swarm.next(in);
         swarm.legal(twin, in);
       }
-      if (reset > 0) {
-        if constexpr (detail::HasReset<Twin>::value) {
-          twin.reset(in);
-        } else {
-          twin = prototype;
-        }
+      constexpr bool resets_itself = detail::HasReset<Twin>::value;
+      if constexpr (!resets_itself) {
+        if (reset > 0) twin = prototype;
       }
       rtl->rst_ni = reset > 0 ? 0 : 1;
       if (reset == 0 && random.one_in(4)) {
@@ -332,10 +329,13 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {},
       }
       in.apply_to(*rtl);
       rtl.low();
-      look("before the edge", in);
+      if (reset == 0 || !resets_itself) look("before the edge", in);
       dump(20 * clock);
       rtl.high();
       if (reset == 0) twin.clock(in);
+      if constexpr (resets_itself) {
+        if (reset > 0) twin.reset(in);
+      }
       look("after the edge", in);
       dump(20 * clock + 10);
     }

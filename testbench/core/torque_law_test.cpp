@@ -16,7 +16,8 @@ struct Twin : TickTwin<ports::torque_law, TorqueLaw<Fixed>> {
   }
   Out out(const In&) const {
     const auto& s = block.shown();
-    return {s.current,       s.voltage,       s.feed,       s.duty,
+    const std::int64_t feed = block.at(5) ? any_value : s.feed;  // the sum of two that change
+    return {s.current,       s.voltage,       feed,         s.duty,
             s.limit_current, s.limit_voltage, s.limit_duty, valid()};
   }
 };

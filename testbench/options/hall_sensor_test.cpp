@@ -13,10 +13,11 @@ namespace {
 struct Twin : BlockTwin<ports::hall_sensor> {
   /// A rotor that turns to and fro, in three of four lives with its lines right.
   void legal(In& in, Random& random) {
-    if (random.one_in(2000)) right = !random.one_in(4), way = random.coin() ? 1 : 3;
-    if (random.one_in(20)) count += static_cast<unsigned>(way);
+    if (random.one_in(2000)) right = !random.one_in(4);
+    if (random.one_in(500)) forward = random.coin();
+    if (random.one_in(20)) forward ? ++count : --count;
     in.count = static_cast<int>(count & 3);
-    if (!random.one_in(3)) in.gain = 0x0100'0000;
+    if (right) in.gain = 0x0100'0000;
     static constexpr int lines[6] = {5, 1, 3, 2, 6, 4};
     if (right && !random.one_in(2000))
       in.hall = lines[(count * std::uint64_t{0x0100'0000} % (std::uint64_t{1} << 32)) * 6 >> 32];
@@ -32,8 +33,7 @@ struct Twin : BlockTwin<ports::hall_sensor> {
   }
 
   HallSensor block{5};
-  bool right = true;
-  int way = 1;
+  bool right = true, forward = true;
   unsigned count = 0;
 };
 

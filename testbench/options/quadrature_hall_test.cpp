@@ -13,7 +13,7 @@ struct Twin : BlockTwin<ports::quadrature_hall> {
     const auto& e = in.encoder;
     Pins pins;
     pins.encoder = {in.a, in.b, in.z};
-    pins.hall = static_cast<unsigned>(in.hall);
+    pins.hall = static_cast<std::uint8_t>(in.hall);
     block.clock(pins,
                 {e.sample, e.tick_count, e.filter, e.polarity, e.set_zero, e.clear, e.gates_enable},
                 in.p);

@@ -24,9 +24,9 @@ struct Twin : BlockTwin<ports::three_phase_current> {
   }
   void clock(const In& in) {
     Pins pins;
-    pins.current_data = static_cast<unsigned>(in.current_data);
+    pins.current_data = static_cast<std::uint8_t>(in.current_data);
     pins.driver_fault = in.driver_fault;
-    block.clock(pins, drive(in), in.p, {in.count, in.offset});
+    block.clock(pins, drive(in), in.p, {in.count, in.offset - in.p.commutation_offset});
   }
   Out out(const In& in) const {
     const Bridge b = block.out();

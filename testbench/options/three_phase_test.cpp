@@ -14,7 +14,9 @@ struct Twin : BlockTwin<ports::three_phase> {
     return {d.gates_enable, d.gates_clear, d.clear,   d.pwm_mode, d.polarity, d.direct,
             d.sample,       d.valid,       d.current, d.feed,     d.duty};
   }
-  void clock(const In& in) { block.clock({}, drive(in), in.p, {in.count, in.offset}); }
+  void clock(const In& in) {
+    block.clock({}, drive(in), in.p, {in.count, in.offset - in.p.commutation_offset});
+  }
   Out out(const In& in) const {
     const Bridge b = block.out();
     const unsigned gates = in.drive.gates_clear ? 0 : block.gates();

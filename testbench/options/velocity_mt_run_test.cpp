@@ -31,7 +31,7 @@ TEST_CASE("velocity by M/T: from event to event is as clock by clock") {
   Core by_clock, by_event;
   CoreIn in;
   std::uint32_t count = 0, step = 1;
-  for (int k = 0; k < 4'000; ++k) {
+  for (int k = 0; k < 1'000; ++k) {
     const unsigned longest = 1U << random.between(6, 13);  // clocks of a count
     if (random.one_in(3)) step = 0U - step;
     in.arm = !random.one_in(50);
@@ -43,7 +43,7 @@ TEST_CASE("velocity by M/T: from event to event is as clock by clock") {
       REQUIRE(by_clock.out() == by_event.out());
     }
   }
-  CHECK(by_event.whole_ticks() > 100'000);
+  CHECK(by_event.whole_ticks() > 40'000);
 }
 
 TEST_CASE("velocity by M/T: calm() and may_trip() see the velocity that edges have told") {

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import outputs
 import rtl_sources
-from synth_tools import ToolError, package_of
+from synth_tools import ToolError, package_file, package_of
 
 BOARD = "de0_nano"
 CLOCK_HZ = 50_000_000
@@ -28,7 +28,7 @@ def design_files(root, design, folder):
     """The package and the parameters of one design, made together."""
     package = package_of(root, design, folder)
     if not isinstance(package, Path):
-        package = root / f"rtl/generated/{package}/cfg.sv"
+        package = package_file(root, package, folder)
     return package, package.with_name("parameters.mem")
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import rtl_sources
 import synth_path
+import synth_tools
 
 CORE = rtl_sources.CORE
 AXES = "feltgate_axes"
@@ -102,7 +103,7 @@ def copy_sources(root, design, folder):
     DESIGN is the name of a generated design, or the path of a package.
     """
     is_path = isinstance(design, Path)
-    package = design if is_path else root / f"rtl/generated/{design}/cfg.sv"
+    package = design if is_path else synth_tools.package_file(root, design, folder / "design")
     names = [*core_sources(root), *beside_sources(root)]
     shutil.copy(package, folder / "cfg.sv")
     for name in names:

@@ -7,7 +7,7 @@ include_guard(GLOBAL)
 
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
 # A new design gets its back-ends once its files are generated: then this list changes.
-file(GLOB generated CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/*/cfg.sv")
+file(GLOB generated CONFIGURE_DEPENDS "${FELTGATE_ROOT}/model/include/feltgate/generated/*.hpp")
 # Presets are in programs of their own: presets.cmake, python.cmake.
 set(presets "${FELTGATE_ROOT}/rtl/designs/presets.txt")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${presets}")
@@ -56,6 +56,25 @@ function(feltgate_type_of design variable)
   set(${variable} "${type}" PARENT_SCOPE)
 endfunction()
 
+# feltgate_package(<variable> <design>): the cfg.sv of a design in rtl/designs. Three are committed; the others are made of
+# their files at build time.
+function(feltgate_package variable design)
+  set(package "${FELTGATE_ROOT}/rtl/generated/${design}/cfg.sv")
+  if(NOT EXISTS "${package}")
+    set(folder "${PROJECT_BINARY_DIR}/designs/${design}")
+    set(package "${folder}/cfg.sv")
+    if(NOT TARGET package_${design})
+      set(file "${FELTGATE_ROOT}/rtl/designs/${design}.toml")
+      add_custom_command(OUTPUT "${package}"
+        COMMAND feltgate_generate "${FELTGATE_ROOT}" --design "${file}" --output "${folder}"
+        COMMAND ${CMAKE_COMMAND} -E touch "${package}"
+        DEPENDS feltgate_generate "${file}" "${FELTGATE_ROOT}/rtl/registers.toml" VERBATIM)
+      add_custom_target(package_${design} DEPENDS "${package}")
+    endif()
+  endif()
+  set(${variable} "${package}" PARENT_SCOPE)
+endfunction()
+
 # What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
 set(FELTGATE_BACKEND_OPTIONS ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)
 # The registry alone, for what leaves the choice of the designs to the program.
@@ -70,7 +89,7 @@ set(FELTGATE_DESIGNS "")
 set(registrations "")
 foreach(path IN LISTS designs)
   get_filename_component(design "${path}" NAME_WE)
-  if(NOT EXISTS "${FELTGATE_ROOT}/rtl/generated/${design}/cfg.sv")
+  if(NOT EXISTS "${FELTGATE_ROOT}/model/include/feltgate/generated/${design}.hpp")
     message(STATUS "design ${design} has no generated files yet: run `feltgate generate`")
     continue()
   endif()

@@ -27,7 +27,8 @@ endforeach()
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/lever/cfg.sv")
 # An engine of one axis, as the design with one has it, and one of three.
 file(GLOB extremes_engine_parts CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/engine/*.sv")
-set(extremes_engine_sources "${FELTGATE_ROOT}/rtl/generated/lever_law/cfg.sv"
+feltgate_package(lever_law_package lever_law)
+set(extremes_engine_sources "${lever_law_package}"
   "${FELTGATE_MAP_PACKAGE}" "${FELTGATE_ROOT}/rtl/generated/feltgate_engine_pkg.sv" ${extremes_engine_parts})
 feltgate_verilate(extremes_engine engine "${extremes_engine_sources}")
 feltgate_verilate(extremes_engine_axes engine "${extremes_engine_sources}"

@@ -85,6 +85,10 @@ target_include_directories(feltgate_config SYSTEM PUBLIC
 # Output files that are whole or not there.
 feltgate_sim_library(files files)
 feltgate_sim_library(design design feltgate_config)
+# Writes what follows from the files of designs.
+add_executable(feltgate_generate EXCLUDE_FROM_ALL "${FELTGATE_ROOT}/model/apps/commands/generate_main.cpp")
+target_compile_options(feltgate_generate PRIVATE ${FELTGATE_WARNINGS} -O1)
+target_link_libraries(feltgate_generate PRIVATE feltgate_design fmt::fmt)
 
 feltgate_sim_library(bounds studies/bounds feltgate_design Boost::headers)
 

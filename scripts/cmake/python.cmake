@@ -24,10 +24,6 @@ endforeach()
 string(REGEX REPLACE "\ndescription = [^\n]*" "\ndescription = \"lever in shorter words\"" text "${text}")
 file(CONFIGURE OUTPUT "${narrow}" CONTENT "${text}" @ONLY)
 
-if(NOT TARGET feltgate_generate)
-  add_executable(feltgate_generate "${FELTGATE_ROOT}/model/apps/commands/generate_main.cpp")
-  target_link_libraries(feltgate_generate PRIVATE feltgate_design fmt::fmt)
-endif()
 set(extra_names "")
 set(installed_from "")  # the files that the designs of the package are of
 set(extra_sources "")

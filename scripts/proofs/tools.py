@@ -111,6 +111,8 @@ def copy_sources(root, proof, design, patch, folder):
         if any(f"{Path(path).stem}::" in named for named in texts):
             paths.insert(0, path)
             texts.append((root / path).read_text(encoding="utf-8"))
+    if any('`include "device.svh"' in named for named in texts):
+        paths.insert(0, f"rtl/{rtl_sources.INCLUDE}")
     changed = {str(k): v for k, v in patches.patched(patch, root).items()} if patch else {}
     if not changed.keys() <= set(paths):
         raise Broken(f"{patch}: changes {', '.join(changed)}, which {proof.key} does not read")

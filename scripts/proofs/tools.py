@@ -105,29 +105,26 @@ def copy_sources(root, proof, design, patch, folder):
         raise Broken(f"{proof.key}: cut {', '.join(strange)}, which it does not read")
     design, constants, _ = split_design(design)
     paths = [f"rtl/{known[name]}" for name in names]
-    cfg = synth_tools.package_file(root, design, folder / "design")
-
-    def file(path):
-        return cfg if path == f"rtl/generated/{design}/cfg.sv" else root / path
-
     texts = [text, *((root / path).read_text(encoding="utf-8") for path in paths)]
     for package in reversed(PACKAGES):  # those that are named
         path = f"rtl/{package.format(design)}"
         if any(f"{Path(path).stem}::" in named for named in texts):
             paths.insert(0, path)
-            texts.append(file(path).read_text(encoding="utf-8"))
+            texts.append((root / path).read_text(encoding="utf-8"))
+    if any('`include "device.svh"' in named for named in texts):
+        paths.insert(0, f"rtl/{rtl_sources.INCLUDE}")
     changed = {str(k): v for k, v in patches.patched(patch, root).items()} if patch else {}
     if not changed.keys() <= set(paths):
         raise Broken(f"{patch}: changes {', '.join(changed)}, which {proof.key} does not read")
     for path in paths:
-        source = changed.get(path) or file(path).read_text(encoding="utf-8")
+        source = changed.get(path) or (root / path).read_text(encoding="utf-8")
         for constant in constants if f"generated/{design}/" in path else ():
             name, value = constant.split("=")
             source = re.sub(rf"(localparam int {name} = )\d+;", rf"\g<1>{value};", source)
         if Path(path).stem in proof.cut:
             source = ports_only(source)
         (folder / Path(path).name).write_text(source, encoding="utf-8")
-    shutil.copy(cfg.with_name("parameters.mem"), folder)  # the core's ParameterFile
+    shutil.copy(root / f"rtl/generated/{design}/parameters.mem", folder)  # the core's ParameterFile
     (folder / "proof.sv").write_text(text, encoding="utf-8")
     return [*(Path(path).name for path in paths), "proof.sv"]
 

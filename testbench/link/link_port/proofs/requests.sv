@@ -41,7 +41,7 @@ module requests_proof (
   );
   localparam int AddressW = 14 + cfg::ENGINE;
   localparam logic [15:0] Port = {1'b0, 1'(cfg::ENGINE), 14'hfff};
-  localparam logic [15:0] Status = 16'(map::A_SNAPSHOT) + 16'(map::READ_AT_STATUS);
+  localparam logic [15:0] Status = 16'(map::A_SNAPSHOT) + 16'(map::S_STATUS);
   localparam logic [5:0] OnlyClear = 6'd1 << map::B_COMMAND_CLEAR_FAULTS;
   localparam logic [1:0] Idle = 2'd0;
   localparam logic [1:0] Wait = 2'd1;

@@ -54,8 +54,7 @@ module ring_proof (
   (* hierconn *) wire [31:0] \u_dut.level_q ;
   (* hierconn *) wire \u_dut.seen_q ;
   (* hierconn *) wire \u_dut.holds_q ;
-  (* hierconn *) wire [3:0] \u_dut.column ;
-  (* hierconn *) wire [3:0] \u_dut.columns_q ;
+  (* hierconn *) wire [3:0] \u_dut.columns ;
   (* hierconn *) wire \u_dut.within_q ;
   (* hierconn *) wire [11:0] \u_dut.words_q ;
   (* hierconn *) wire [RowBits-1:0] \u_dut.row_q ;
@@ -70,6 +69,7 @@ module ring_proof (
   wire starts = \u_dut.starts ;
   wire taking = \u_dut.taking_q ;
   wire [11:0] words = \u_dut.words_q ;
+  wire full = \u_dut.columns [3];  // eight words
   wire [RowBits-1:0] row = \u_dut.row_q ;
   wire [RowBits-1:0] pre = \u_dut.pre_q ;
   wire [RowBits-1:0] first_row = \u_dut.first_row ;
@@ -109,26 +109,15 @@ module ring_proof (
   end
   assign from_first = any_q - first_row;
 
-  // Columns of the row that were written.
-  logic [7:0] written_q;
+  // Words of the tick that were stored.
+  logic [11:0] stored_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {came_q, written_q} <= '0;
+    if (!rst_ni) {came_q, stored_q} <= '0;
     else if (word_valid_i) begin
-      came_q    <= word_number_i == Status ? '0 : came_q | 12'd1 << word_number_i;
-      written_q <= (first ? 8'd0 : written_q) | (8'(stores) << \u_dut.column [2:0]);
+      came_q   <= word_number_i == Status ? '0 : came_q | 12'd1 << word_number_i;
+      stored_q <= (first ? '0 : stored_q) | 12'(stores) << word_number_i;
     end
   end
-  // Columns of the words that came: those of the mask in their order, at most eight.
-  function automatic logic [7:0] columns_of(input logic [11:0] mask, input logic [11:0] came);
-    logic [3:0] column;
-    {columns_of, column} = '0;
-    for (int k = 0; k < Words; k++) begin
-      if (mask[k] && !column[3]) begin
-        columns_of[column[2:0]] = came[k];
-        column = column + 4'd1;
-      end
-    end
-  endfunction
 
   // The event asked for has come since the last tick ended, and was asked for before it came.
   logic asked, event_came_q;
@@ -158,7 +147,7 @@ module ring_proof (
     if (rst_ni && past_ok_q) begin
       rows_before_stay: assert (!stores || state != 3'd3 || since >= before_q);
       done_is_full: assert (state != 3'd4 || (rows == (RowBits + 1)'(Rows) && first_row == low_q));
-      row_is_one_tick: assert (!whole || (came_q == '0 && written_q == columns_of(words, All)));
+      row_is_one_tick: assert (!whole || (came_q == '0 && (stored_q == words || full)));
       torn_is_no_row: assert (!torn_q || {1'b0, from_first} >= rows);
       counts_in_range: assert (rows <= (RowBits + 1)'(Rows) && (!taking || !runs || rows < (RowBits + 1)'(Rows)) &&
                                (state != 3'd1 || (left != '0 && left <= {1'b0, pre} && rows + left == {1'b0, pre})) &&
@@ -175,7 +164,7 @@ module ring_proof (
       inside_wait: assert (state != 3'd2 || rows >= {1'b0, pre});
       inside_within: assert ( \u_dut.within_q == (came_q != '0) && !came_q[Status]);
       inside_ends: assert (!\u_dut.ends_q || came_q == '0);
-      inside_column: assert (!taking || !runs || written_q == columns_of(words, came_q == '0 ? All : came_q));
+      inside_stored: assert (!taking || !runs || full || stored_q == (words & (came_q == '0 ? All : came_q)));
       triggers: cover (fires && taking);
       triggers_by_event: cover (fires && taking && \u_dut.event_q );
       fills: cover (state == 3'd1 && rows != '0);

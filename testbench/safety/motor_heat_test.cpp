@@ -16,6 +16,8 @@ struct Twin : BlockTwin<ports::motor_heat> {
   void legal(In& in, Random& random) {
     if (random.one_in(3)) in.p.i2t_budget = static_cast<std::uint32_t>(sum + random.between(-1, 1));
   }
+  /// They hold between the edges, too.
+  static void asynchronous(In& between, const In& in) { between = in; }
   bool summed() const { return block.at(Law::summed); }
   void clock(const In& in) {
     if (summed())

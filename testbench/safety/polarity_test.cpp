@@ -26,6 +26,8 @@ struct Twin : BlockTwin<ports::polarity> {
     in.velocity = speed;
     in.current = speed < 0 ? 1 << 10 : -(1 << 10);
   }
+  /// They hold between the edges, too.
+  static void asynchronous(In& between, const In& in) { between = in; }
   void clock(const In& in) {
     if (after) state = judged(in).next;
     after = in.start;

@@ -10,39 +10,52 @@ using namespace feltgate::test;
 namespace {
 
 struct Twin : BlockTwin<ports::safety> {
-  /// Ticks of 40 clocks and more, whose operands hold. In calm ones causes and refusals are rare.
+  /// Ticks of 40 clocks and more, whose operands hold. Mostly calm ones: causes and refusals are
+  /// rare, the lever rests, times are short, and what is latched is cleared.
   void legal(In& in, Random& random) {
     if (at == 0) {
-      held = in;
       gap = static_cast<int>(random.below(random.coin() ? 2 : 30));
       if (random.one_in(100)) calm = !random.one_in(4);
+      if (random.one_in(50)) host = !host;
+      if (!random.one_in(8)) in.position.travel = held.position.travel;
+      if (calm) {
+        in.velocity >>= 12;
+        in.p.overspeed = in.p.i2t_budget = ~0U >> 1;
+        in.p.self_test_quiet &= 1, in.p.self_test_pulse &= 3;
+        in.p.hold_torque &= 0xff, in.p.hold_time &= 3;
+        in.p.watchdog_ticks |= 0xff;
+      }
+      held = in;
+      ticks += 1U << Map::self_test_unit_bits;
     }
-    const auto last = at == 40 + gap;
+    const bool last = at == 40 + gap;
     in.p = held.p;
     in.velocity = held.velocity, in.tau_ref = held.tau_ref;
     in.voltage = held.voltage, in.current = held.current;
-    in.tick = {at, at == 2, at == 7, at == 15, at == 11, at == 14, at == 27, last, held.tick.count};
-    in.bridge.measured = false;
+    in.bridge.measured = held.bridge.measured, in.bridge.current = held.bridge.current;
+    in.tick = {at,       at == 2,  at == 7,
+               at == 15, at == 11, at == 14,
+               at == 27, last,     calm ? ticks : held.tick.count};
     in.trips &= 1U << fault::word | 1U << fault::engine;
     auto& c = in.commands;
+    c.host = host;
     c.kick = c.kick && last;
     c.clear_faults = c.clear_faults && last;
     if (calm) {
-      const bool rare = random.one_in(4000);
-      const auto keep = [rare](auto& bit) {
-        bit = static_cast<std::decay_t<decltype(bit)>>(rare ? bit : 0);
+      const bool rare = random.one_in(8000), faulty = block.latch.first != 0;
+      const auto keep = [rare](auto& bits) {
+        if (!rare) bits = std::decay_t<decltype(bits)>{};
       };
-      keep(in.trips), keep(c.stop), keep(c.host_stop), keep(in.bridge.why), keep(in.peers.fault);
       auto& s = in.position;
-      keep(s.why), keep(s.trip_channel), keep(s.trip_index), keep(s.trip_flip), keep(s.illegal);
-      in.p.overspeed = in.p.i2t_budget = ~0U >> 1;
-      in.velocity = held.velocity >>= 12;
+      s.travel = held.position.travel;
+      keep(in.trips), keep(c.stop), keep(c.host_stop), keep(c.disarm), keep(in.bridge.why);
+      keep(in.peers.fault), keep(in.peers.silent), keep(in.peers.blocked), keep(in.peers.waits);
+      keep(s.why), keep(s.trip_channel), keep(s.trip_index), keep(s.trip_flip), keep(s.illegal),
+          keep(s.moved);
       in.bridge.period_start = in.bridge.period_start && random.one_in(500);
-      in.p.self_test_quiet &= 1, in.p.self_test_pulse &= 1;
-      in.p.watchdog_ticks |= 0xff;
-      in.peers.silent = in.peers.silent && rare, in.peers.blocked = in.peers.blocked && rare;
-      c.disarm = c.disarm && random.one_in(100);
-      if (last && !random.one_in(20)) c.host_arm = c.panel_arm = !random.one_in(30);
+      c.mode = held.commands.mode & 1;
+      c.host_arm = c.panel_arm = !faulty && !random.one_in(30);
+      c.clear_faults = last && (faulty || rare);
     }
     at = last ? 0 : at + 1;
   }
@@ -90,7 +103,8 @@ struct Twin : BlockTwin<ports::safety> {
   Safety block;
   In held{};
   int at = 0, gap = 0;
-  bool calm = true;
+  bool calm = true, host = false;
+  std::uint32_t ticks = 0;
 };
 
 }  // namespace

@@ -58,6 +58,7 @@ struct Longest : Twin {
     in.armed = armed = at++ > 10;
     in.p.self_test_quiet = in.p.self_test_pulse = 255;
     in.direct = in.waits = false;
+    in.p.self_test_arms = 0;
     in.travel = 0;
     in.tick_count = static_cast<std::uint32_t>(at) << Map::self_test_unit_bits & 0xffff;
   }

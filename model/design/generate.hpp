@@ -33,9 +33,6 @@ std::string causes_header(const RegisterMap& map);
 /// Text of model/include/feltgate/generated/NAME.hpp.
 std::string cpp_header(const Elaborated& e);
 
-/// Text of model/include/feltgate/generated/reader.hpp.
-std::string reader_header(const RegisterMap& map);
-
 /// Text of rtl/generated/NAME/parameters.mem for $readmemh: the 512 words in hexadecimal, each
 /// after its check bits.
 std::string memory_text(const Elaborated& e);

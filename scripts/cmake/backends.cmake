@@ -77,11 +77,14 @@ endfunction()
 
 # What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
 set(FELTGATE_BACKEND_OPTIONS ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)
+# The laws of any design tick by tick, in integers and in real arithmetic.
+feltgate_sim_library(chain sim/reference)
+target_compile_options(feltgate_chain PRIVATE ${FELTGATE_BACKEND_OPTIONS})
 # The registry alone, for what leaves the choice of the designs to the program.
 add_library(feltgate_registry STATIC "${FELTGATE_ROOT}/model/sim/backends/backend.cpp"
   "${FELTGATE_ROOT}/model/sim/backends/axes_cores.cpp")
 target_compile_options(feltgate_registry PRIVATE ${FELTGATE_WARNINGS})
-target_link_libraries(feltgate_registry PUBLIC feltgate_model PRIVATE fmt::fmt)
+target_link_libraries(feltgate_registry PUBLIC feltgate_chain PRIVATE fmt::fmt)
 feltgate_export(registry)
 
 add_library(feltgate_backends STATIC "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp")

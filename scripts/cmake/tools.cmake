@@ -184,7 +184,7 @@ include(presets)
 # What `feltgate explore` takes from the build; with synth it makes designs out of tree.
 feltgate_program(feltgate_point_bounds bounds_main.cpp feltgate_bounds nlohmann_json::nlohmann_json)
 add_dependencies(feltgate
-  feltgate_generate feltgate_point_bounds feltgate_explore feltgate_verilated)
+  feltgate_generate feltgate_point_bounds feltgate_explore feltgate_chain feltgate_verilated)
 
 # The host of a board; it needs no simulation, so it is built by itself.
 file(GLOB host_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/commands"

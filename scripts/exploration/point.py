@@ -28,7 +28,7 @@ from exploration.design_text import design_text
 ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
 BUILD = Path(os.environ.get("FELTGATE_BUILD", ROOT / "build"))
 SEEDS = (1, 2, 3)
-LIBRARIES = ("explore", "plant_files", "plant", "config", "verilated")
+LIBRARIES = ("explore", "chain", "plant_files", "plant", "config", "verilated")
 OPTIMISE = "-O1"  # measured: -O2 costs as much compiling as it saves running
 BOUNDED = ("torque_nm", "tau_ref_nm", "tau_hat_nm", "velocity_rad_s")
 

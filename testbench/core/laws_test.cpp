@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "../campaigns/extremes/dead_band.hpp"
 #include "catch.hpp"
 #include "feltgate/axis/observer.hpp"
 #include "feltgate/axis/ramp.hpp"
@@ -91,6 +92,35 @@ TEST_CASE("velocity: w += a1 (gain * counts - w), within the low-pass's dead ban
     }
     CHECK(worst <= n.rounding() * n.lsb("VELOCITY") / a1);
   });
+}
+
+TEST_CASE("velocity: where the low-pass comes to rest, by each rounding") {
+  using feltgate::Round;
+  for (const auto& [way, round] : {std::pair{Rounding::half_up, Round::half_up},
+                                   {Rounding::down, Round::truncate},
+                                   {Rounding::half_to_even, Round::convergent}}) {
+    Design d = Design::of<feltgate::Lever>();
+    d.constants["ROUNDING"] = static_cast<int>(way);
+    const VelocityEstimator<Fixed> law(d);
+    Words<std::int64_t> p;
+    p.velocity_a1 = 67109;  // 500 rad/s
+    std::int64_t low = 0, high = 0;
+    for (const std::int16_t counts : std::array<std::int16_t, 5>{-100, -1, 0, 1, 100}) {
+      for (const std::int64_t from : {-(1 << 20), 1 << 20}) {
+        VelocityEstimator<Fixed>::State s, before;
+        s.velocity = law.speed(counts) + from;
+        do {
+          before = s;
+          s = law.tick(s, p, counts);
+        } while (s.velocity != before.velocity);
+        low = std::min(low, s.velocity - law.speed(counts));
+        high = std::max(high, s.velocity - law.speed(counts));
+      }
+    }
+    const auto band = feltgate::extremes::dead_band(round, p.velocity_a1, d["P_VELOCITY_A1_F"]);
+    CHECK(low == band.low);
+    CHECK(high == band.high);
+  }
 }
 
 TEST_CASE("velocity: the window has the counts of the last ticks, from the reset on") {

@@ -190,7 +190,6 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
   stale |= update(headers / "engine.hpp", engine_header(engine), o.check_only);
   stale |= update(o.root / "docs/engine-isa.md", engine_page(engine), o.check_only);
   stale |= update(headers / "causes.hpp", causes_header(registers), o.check_only);
-  stale |= update(headers / "reader.hpp", reader_header(registers), o.check_only);
   for (const auto& entry : fs::directory_iterator(o.root / "rtl/designs")) {
     if (entry.path().extension() != ".toml") continue;
     const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);

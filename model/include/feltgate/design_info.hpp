@@ -107,6 +107,12 @@ inline std::optional<std::int64_t> quantised(const ParameterInfo& p, double valu
   return static_cast<std::int64_t>(steps);
 }
 
+/// Whether design D has scene number `scene`.
+template <class D>
+constexpr bool scene_built(int scene) {
+  return scene >= 0 && scene < 16 && ((D::scene_mask >> scene) & 1) != 0;
+}
+
 /// The generated constants of design D as run-time information.
 template <class D>
 DesignInfo design_info() {
@@ -148,7 +154,7 @@ DesignInfo design_info() {
   i.file_sum = D::file_sum;
   i.scene_number = [](const std::string& name) {
     const int n = D::scene_number(name);
-    return n >= 0 && ((D::scene_mask >> n) & 1) != 0 ? n : -1;
+    return scene_built<D>(n) ? n : -1;
   };
   for (const std::string_view scene : D::scene_names) {
     if (i.scene_number(std::string(scene)) >= 0) i.scenes.emplace_back(scene);

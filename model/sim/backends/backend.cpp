@@ -124,14 +124,6 @@ void AnyBackend::trace(const std::string&, Clock, Clock) {
       fmt::format("--fst: the back-end {} has no waveform; choose --engine rtl or all", name()));
 }
 
-std::int64_t quantise_parameter(const ParameterInfo& info, double value) {
-  if (const auto raw = quantised(info, value)) return *raw;
-  const ValueRange range = range_of(info);
-  throw std::invalid_argument(
-      fmt::format("{} = {} {} does not fit its register; choose a value from {} to below {}",
-                  info.name, value, info.unit, range.low, range.high + range.step));
-}
-
 std::uint32_t control_word(const DesignInfo& design, int scene, int mode, bool arm) {
   const ControlBits& bits = design.control;
   return design.control_reset | 1u << bits.host | (arm ? 1u : 0u) << bits.arm |

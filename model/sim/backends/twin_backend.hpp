@@ -8,11 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "../reference/chain.hpp"
-#include "../reference/real_chain.hpp"
 #include "clocked_backend.hpp"
 #include "law_core.hpp"
 
@@ -122,22 +120,9 @@ class TwinBackend : public ClockedBackend {
   GateCounts gates_before_{};
 };
 
-/// Makes the chain "fixed", "float", "double" or "quad". Errors: std::invalid_argument for another
-/// kind.
 template <class D>
 std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
-  if constexpr (D::mt_counts != 0) {
-    throw std::invalid_argument("chain \"" + kind + "\" of design " + D::name +
-                                ": M/T needs the clocks of the edges, which a chain by ticks does "
-                                "not have; choose the back-ends rtl,twin");
-  } else {
-    if (kind == "fixed") return std::make_unique<Chain<D, Fixed>>("fixed");
-    if (kind == "float") return std::make_unique<Chain<D, Real<float>>>("float");
-    if (kind == "double") return std::make_unique<Chain<D, Real<double>>>("double");
-    if (kind == "quad") return std::make_unique<Chain<D, Real<Quad>>>("quad");
-  }
-  throw std::invalid_argument("chain \"" + kind +
-                              "\" is unknown; choose fixed, float, double or quad");
+  return make_chain(ChainDesign::of<D>(), kind);
 }
 
 }  // namespace feltgate

@@ -11,12 +11,22 @@
 #include <string>
 
 #include "feltgate/generated/causes.hpp"
-#include "feltgate/ramp.hpp"
+#include "feltgate/generated/map.hpp"
 
 namespace feltgate {
 
 /// Limits of the core that a chain does not have.
 inline constexpr unsigned limits_of_core = limit::gates_closed | limit::hold | limit::chatter;
+
+/// Conditions that keep a torque from growing.
+struct Relief {
+  bool frozen = false;   ///< the reference may only move towards 0
+  bool derated = false;  ///< hold_limit limits too
+};
+/// The relief that bits of a core's limits word stand for.
+constexpr Relief relief_of(unsigned limits) {
+  return {((limits >> Map::L::chatter) & 1U) != 0, ((limits >> Map::L::hold) & 1U) != 0};
+}
 
 /// Inputs of one tick.
 struct ChainIn {

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "Vfeltgate_core.h"
+#include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "lock_step.hpp"
 #include "ports.hpp"

@@ -18,7 +18,6 @@
 #include "feltgate/core_ports.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
-#include "feltgate/scenes.hpp"
 #include "random.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/sigma_delta.hpp"

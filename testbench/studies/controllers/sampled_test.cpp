@@ -88,13 +88,15 @@ struct Errors {
 template <class D>
 Errors errors_of(const std::vector<std::int16_t>& travel, const Motion& motion) {
   const double gain = std::ldexp(D::m1 * kTick_s / kCount_rad, D::velocity_shift);
-  Chain<D, Fixed> chain("N");
+  ChainDesign design = ChainDesign::of<D>();
+  design.data.constants["M1"] = D::m1;
+  design.data.constants["VELOCITY_SHIFT"] = D::velocity_shift;
+  Chain<axis::Fixed> chain("N", design);
   chain.set_parameter(D::A::velocity_a1, -std::expm1(-kPole_rad_s * kTick_s));
   Spread filtered, raw;
   for (int k = 0; k < motion.ticks(); ++k) {
     const auto t = travel[static_cast<std::size_t>(k)];
-    const double input =
-        std::ldexp(static_cast<double>(chain.control().velocity_input(t)), -D::f.velocity.fraction);
+    const double input = axis::Fixed::value(chain.velocity_input(t), D::f.velocity.fraction);
     ChainIn in;
     in.position = in.travel = t;
     chain.tick(in);

@@ -6,6 +6,7 @@
 // docs/fixed-point.md
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 namespace feltgate::axis {
@@ -53,6 +54,9 @@ struct Fixed {
   using T = std::int64_t;
   static constexpr bool is_fixed = true;
 
+  /// The number nearest to a value, in a format with `fraction`; and the value of a number.
+  static T of(double value, int fraction) { return std::llround(std::ldexp(value, fraction)); }
+  static double value(T x, int fraction) { return std::ldexp(static_cast<double>(x), -fraction); }
   /// y + x * 2^-drop, rounded.
   static T add_rounded(T y, T x, const Drop& d) {
     if (d.to_even != 0) x += (y + (x >> d.drop)) & 1;
@@ -86,6 +90,8 @@ template <class R>
 struct Real {
   using T = R;
   static constexpr bool is_fixed = false;
+  static T of(double value, int) { return static_cast<T>(value); }
+  static double value(T x, int) { return static_cast<double>(x); }
   static T add_rounded(T y, T x, const Drop&) { return y + x; }
   static T scale(T x, const Exponent&) { return x; }
   static T scale_sticky(T x, int) { return x; }
@@ -94,9 +100,7 @@ struct Real {
   static bool beyond(T x, T limit) { return x > limit || x < -limit; }
   static T limited(T x, T limit) { return x > limit ? limit : x < -limit ? -limit : x; }
   /// x * 2^(exponent - fraction): the value that Fixed has in a format with `fraction`.
-  static T integer(std::int64_t x, int exponent, int fraction) {
-    return static_cast<T>(x) * power(exponent - fraction);
-  }
+  static T integer(T x, int exponent, int fraction) { return x * power(exponent - fraction); }
   static T floor(T x, int) {
     const T whole = static_cast<T>(static_cast<std::int64_t>(x));
     return whole > x ? whole - 1 : whole;

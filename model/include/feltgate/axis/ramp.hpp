@@ -33,7 +33,7 @@ struct Ramp {
   explicit Ramp(const Design& d)
       : fine(d["RAMP_F"] - d["TORQUE_F"]),
         coarse(d["TORQUE_F"] - d["RAMP_F"]),
-        least(N::integer(1, 0, d["RAMP_F"])) {}
+        least(N::integer(T{1}, 0, d["RAMP_F"])) {}
 
   [[gnu::always_inline]] State tick(const State& s, const Words<T>& p, const In& in) const {
     State next = s;
@@ -50,13 +50,16 @@ struct Ramp {
     const T excess = s.ramp - target;
     const bool down = !(excess < 0), frozen = in.frozen && in.armed;
     const T step = in.frozen ? T{0} : p.ramp_step == 0 ? least : p.ramp_step;
-    const T left = down ? excess - step : excess + step;
-    const bool reached = left == 0 || (left < 0) == down;
+    const bool reached = (down ? excess : -excess) <= step;
     // Frozen, a reference stays that would grow or change its sign.
     const bool stepping = (ramping && in.armed) ||
                           (frozen && (down ? s.ramp < 0 || target < 0 : s.ramp >= 0 || target > 0));
     next.limit_ramp = stepping;
-    if (!stepping || !reached) next.ramp = stepping ? target + left : target;
+    if (!stepping) {
+      next.ramp = target;
+    } else if (!reached) {
+      next.ramp = down ? s.ramp - step : s.ramp + step;
+    }
     next.ramping = ramping && !(stepping && reached);
     next.tau_ref = N::scale(next.ramp, coarse);
     return next;

@@ -68,7 +68,7 @@ struct Scene {
     State next{false, s.from_above, 0};
     if (!has(scene)) return next;
     // Reference minus position. Of a charge's centre the fraction is ignored.
-    const T at = N::integer(position, distance_f, distance_f);
+    const T at = N::integer(static_cast<T>(position), distance_f, distance_f);
     const T distance = p.first - at;
     T torque = 0;
     switch (scene) {

@@ -43,7 +43,7 @@ struct VelocityEstimator {
   };
 
   explicit VelocityEstimator(const Design& d)
-      : gain(d["VELOCITY_GAIN"] == 0 ? 1 : d["VELOCITY_GAIN"]),
+      : gain(static_cast<T>(d["VELOCITY_GAIN"] == 0 ? 1 : d["VELOCITY_GAIN"])),
         exponent(d["VELOCITY_F"] +
                  (d["VELOCITY_GAIN"] == 0 ? d["VELOCITY_SHIFT"] : -d["VELOCITY_GAIN_F"])),
         w(d["VELOCITY_W"]),
@@ -53,7 +53,7 @@ struct VelocityEstimator {
 
   /// Before the low-pass, not yet saturated.
   T speed(std::int16_t counts) const {
-    return N::integer(counts * std::int64_t{gain}, exponent, f);
+    return N::integer(static_cast<T>(counts) * gain, exponent, f);
   }
   [[gnu::always_inline]] State tick(const State& s, const Words<T>& p, std::int16_t counts) const {
     const T speed = this->speed(counts), raw = N::saturate(speed, w);
@@ -62,7 +62,7 @@ struct VelocityEstimator {
   /// By M/T, as rtl/options/mt/velocity_estimator.sv: at a standstill without the low-pass, if that
   /// step is none that Overspeed takes for broken hardware.
   State tick(const State& s, const Words<T>& p, const SpanMeter::State& spans) const {
-    const T raw = N::integer(spans.raw, 0, f);
+    const T raw = N::integer(static_cast<T>(spans.raw), 0, f);
     if (spans.still && N::saturate(s.velocity, slow) == s.velocity) return {raw, spans.saturated};
     return {N::add_rounded(s.velocity, (raw - s.velocity) * p.velocity_a1, a1), spans.saturated};
   }
@@ -72,7 +72,8 @@ struct VelocityEstimator {
     if (a.at(3)) to.velocity = from.velocity;
   }
 
-  int gain, exponent;
+  T gain;
+  int exponent;
   Bits w;
   int f;
   Bits slow;

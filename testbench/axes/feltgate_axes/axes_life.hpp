@@ -71,11 +71,6 @@ struct AxesAdapter {
       word(FELTGATE_OF_AXIS("gate_a_lo"), rtl.gate_a_lo_o, 1, o.gates >> 1 & 1u);
       word(FELTGATE_OF_AXIS("gate_b_hi"), rtl.gate_b_hi_o, 1, o.gates >> 2 & 1u);
       word(FELTGATE_OF_AXIS("gate_b_lo"), rtl.gate_b_lo_o, 1, o.gates >> 3 & 1u);
-      word(FELTGATE_OF_AXIS("gate_c_hi"), rtl.gate_c_hi_o, 1, o.gates >> 4 & 1u);
-      word(FELTGATE_OF_AXIS("gate_c_lo"), rtl.gate_c_lo_o, 1, o.gates >> 5 & 1u);
-      word(FELTGATE_OF_AXIS("encoder_select_n"), rtl.encoder_select_no, 1, o.serial & 1u);
-      word(FELTGATE_OF_AXIS("encoder_clock"), rtl.encoder_clock_o, 1, o.serial >> 1 & 1u);
-      word(FELTGATE_OF_AXIS("encoder_command"), rtl.encoder_command_o, 1, o.serial >> 2 & 1u);
       word(FELTGATE_OF_AXIS("gates_enable"), rtl.gates_enable_o, 1, o.gates_enable);
       word(FELTGATE_OF_AXIS("scene"), rtl.scene_o, 4, o.scene);
       word(FELTGATE_OF_AXIS("limits"), rtl.limits_o, C::status_limits_width, o.limits);

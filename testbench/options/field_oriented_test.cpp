@@ -17,7 +17,7 @@ struct Twin : BlockTwin<ports::field_oriented> {
     in.direct = in.direct && random.one_in(10);
     if (random.coin())
       in.limit &= 0x1ffff, in.proportional &= 0xfff, in.current_a >>= 6, in.current_b >>= 6;
-    if (random.one_in(60)) still = random.coin();
+    if (random.one_in(20)) still = random.coin();
     if (still) in.current_a = 0;  // an open phase
   }
   void clock(const In& in) {

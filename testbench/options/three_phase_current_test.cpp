@@ -32,7 +32,8 @@ struct Twin : BlockTwin<ports::three_phase_current> {
     const Bridge b = block.out();
     const unsigned gates = in.drive.gates_clear ? 0 : block.gates();
     return {{b.measured, b.period_start, b.duty_active, b.current, b.why},
-            gates >> 0 & 1,
+            block.modulator_clock(),
+            gates & 1,
             gates >> 1 & 1,
             gates >> 2 & 1,
             gates >> 3 & 1,

@@ -28,7 +28,8 @@ struct Twin : BlockTwin<ports::params> {
   }
   void reset(const In& in) {
     block.reset();
-    block.read(memory, in.read_addr);
+    clock(in);  // a write lands, the port goes on
+    block.reset();
     if (filled < 2) ++filled;
   }
 

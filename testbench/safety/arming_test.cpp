@@ -25,17 +25,23 @@ struct Twin : BlockTwin<ports::arming> {
   int wait_ticks = Arming::wait_ticks(design());
 };
 
-/// Nothing stands against arming, but a request waits: about as long as it may, or a bit longer.
+/// Nothing stands against arming but that a request waits, about as long as it may; at times the
+/// host takes over, soon or late, with a request of its own.
 struct Waits : Twin {
   void legal(In& in, Random& random) {
-    if (at-- == 0) at = wait_ticks + static_cast<int>(random.between(-3, 20));
-    const bool begins = at >= wait_ticks - 5 && random.coin(), wait = at > 3;
+    if (left-- == 0) {
+      left = length = wait_ticks + static_cast<int>(random.between(-5, 15));
+      const auto moment = static_cast<int>(random.between(0, 25));
+      handed = random.coin() ? -1 : random.coin() ? moment : length - moment;
+    }
     in = {};
     in.tick = true;
-    in.panel_arm = !begins;
-    in.wait = wait;
+    in.host = left < handed;
+    in.panel_arm = left < length;
+    in.host_arm = in.host;
+    in.wait = left > 3;
   }
-  int at = 0;
+  int left = 0, length = 0, handed = 0;
 };
 
 }  // namespace

@@ -11,10 +11,15 @@ namespace {
 struct Twin : BlockTwin<ports::hold_timer> {
   static constexpr int holds = 2;
   static void strobes(In& in, int clock) { in.start = clock == 0; }
-  /// Mostly the lever stands still, and often a unit passes in every tick.
+  /// Mostly the lever stands still, for short times and with torques about the one that is watched;
+  /// often a unit passes in every tick.
   void legal(In& in, Random& random) {
     if (random.one_in(300)) unit = random.coin();
     if (unit) in.tick_count &= ~0U << Map::hold_unit_bits;
+    if (random.one_in(4)) in.tick_count = 1U << random.below(Map::hold_unit_bits);
+    if (!random.one_in(4)) in.p.hold_time &= 7;
+    const auto torque = static_cast<std::int32_t>(in.p.hold_torque + random.between(-1, 1));
+    if (random.one_in(3)) in.tau_ref = random.coin() ? torque : -torque;
     in.armed = in.armed || !random.one_in(100);
     in.moved = in.moved && random.one_in(100);
   }

@@ -11,20 +11,26 @@ namespace {
 struct Twin : BlockTwin<ports::polarity> {
   static constexpr int holds = 2;
   static void strobes(In& in, int clock) { in.start = clock == 0; }
-  /// Often a lever that runs away: the speed grows against the current.
+  /// Often a lever that runs away: the speed grows against the current, both about as much as the
+  /// words say.
   void legal(In& in, Random& random) {
     if (random.one_in(200)) runs_away = random.coin();
     if (random.one_in(50)) ticks = static_cast<std::uint16_t>(random.below(random.coin() ? 4 : 40));
     if (!runs_away) return;
     in.open = in.open || !random.one_in(50);
     in.p.polarity_ticks = ticks;
-    in.p.polarity_current &= 0xff;
     in.p.polarity_speed &= 0x3fffff;
     speed += static_cast<std::int32_t>(random.between(-(1 << 15), 1 << 20));
     if (random.one_in(400)) speed = -speed;
     if (std::abs(speed) > 1 << 28) speed = 0;
     in.velocity = speed;
-    in.current = speed < 0 ? 1 << 10 : -(1 << 10);
+    const std::int64_t gained = Fixed::truncated(speed, law.drop) - state.begin;
+    if (random.one_in(3)) {
+      in.p.polarity_speed = static_cast<std::uint32_t>(std::abs(gained) + random.between(-1, 1));
+    }
+    const auto current = static_cast<std::int32_t>(in.p.polarity_current +
+                                                   (random.one_in(50) ? random.between(-1, 1) : 1));
+    in.current = speed < 0 ? current : -current;
   }
   /// They hold between the edges, too.
   static void asynchronous(In& between, const In& in) { between = in; }

@@ -247,6 +247,7 @@ class BackEnd {
   std::vector<std::pair<Value, Value>> aligned_;
   std::map<Operand, Value> negated_;
   std::map<std::tuple<NodeId, double, bool>, Value> ended_;
+  bool clipped_ = false;  ///< with_ends() has limited a value by clipped()
   std::map<std::pair<Operand, Operand>, Value> products_;
   std::map<std::string, int> table_keys_;
   std::map<std::string, double> memory_scales_;  ///< scales of arrays and of tables through points

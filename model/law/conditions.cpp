@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "law/back_end.hpp"
 
@@ -312,6 +313,7 @@ Value BackEnd::with_ends(NodeId id, const Map& map, const Ends& ends) {
       break;
   }
   const bool choose = n.op == Op::select;
+  const bool clipped_before = std::exchange(clipped_, false);
   if (choose) lower_leaves(n.arguments[0]);
   const Value x = with_ends(n.arguments[choose ? 1 : 0], map, ends);
   const Value y = with_ends(n.arguments[choose ? 2 : 1], map, ends);
@@ -323,7 +325,10 @@ Value BackEnd::with_ends(NodeId id, const Map& map, const Ends& ends) {
                  0, x.operand, y.operand, ends.scale, id);
   s.x_error = x.error;
   s.y_error = y.error;
-  if (map.factor == 1 && map.offset == 0) s.node = id;
+  // Of a clipped value, a part that goes beyond the whole result's range is not the law's.
+  const bool as_the_law = !clipped_ || span(id).within(ends.range);
+  if (map.factor == 1 && map.offset == 0 && as_the_law) s.node = id;
+  clipped_ = clipped_ || clipped_before;
   if (choose) s.condition = n.arguments[0];
   return {last(), ends.scale, ends.range.size()};
 }
@@ -366,6 +371,7 @@ Value BackEnd::clipped(Value v, const Map& map, const Ends& ends, NodeId id) {
             (ends.range.hi + room - map.offset) / map.factor};
   if (keep.lo > keep.hi) std::swap(keep.lo, keep.hi);
   if (!(keep.size() < v.size)) return v;
+  clipped_ = true;
   emit(EngineOp::max, 0, v.operand, constant(std::floor(keep.lo / v.scale), id), v.scale, id);
   emit(EngineOp::min, 0, last(), constant(std::ceil(keep.hi / v.scale), id), v.scale, id);
   return {last(), v.scale, keep.size() + v.scale};

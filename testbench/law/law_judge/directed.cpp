@@ -327,6 +327,21 @@ void ends(std::vector<Directed>& all) {
                            told(make(Kind::equal, {number("2") * gear, number("40")})))});
 }
 
+/// A limited value in a sum with a whole state, whose words are clipped on the way, and the
+/// position beyond that limit in the torque.
+void clipped_beside(std::vector<Directed>& all) {
+  Law l;
+  const Node stage = l.state("stage", 0, 0, 3, true);
+  const Node sum = limited(position(), -2.174, 0.838) + stage;
+  const Node less =
+      choose(make(Kind::less_equal, {sum, number("0.538")}), number("1"), number("0"));
+  l.states[0].next = make(Kind::clamp, {stage - less, number("0"), number("3")});
+  const Node is = make(Kind::more_equal, {stage, number("1.5")});
+  all.push_back(
+      {"a limited value beside a whole state, and the position beyond its limit",
+       of(l, times(3.527, choose(is, number("0.926"), limited(position(), -2.259, 2.924))))});
+}
+
 /// A comparison that was the flag once, and is needed again after another one.
 void flag_once(std::vector<Directed>& all) {
   const Node held = number("0.2") < position();
@@ -344,6 +359,7 @@ std::vector<Directed> tight_laws() {
   dropped(all);
   last_piece(all);
   full_factors(all);
+  clipped_beside(all);
   return all;
 }
 

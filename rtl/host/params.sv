@@ -4,7 +4,8 @@
 // The parameters: a RAM of 512 words with check bits, and a register for each word of p_o. The first
 // clocks of a tick load the words of its scene, the others go round the common words, so that a
 // register is never older than three ticks. A word that is written lands in RAM and register at once.
-// A wrong check is a fault. A reset changes neither; configuration loads the design's values.
+// A word whose check is wrong is a fault and is not loaded. A reset changes neither; configuration
+// loads the design's values.
 // docs/blocks/host.md
 
 `default_nettype none
@@ -54,7 +55,7 @@ module params #(
   logic [8:0] address, place_q;
   logic [5:0] next_q;
   logic [35:0] fetch_q;
-  logic of_scene, fetched_q, warm_q;
+  logic of_scene, fetched_q, wrong, warm_q;
   logic [4:0] place;
   assign of_scene = clock_i < cfg::TICK_W'(5);
   always_comb begin
@@ -68,6 +69,7 @@ module params #(
   end
   assign address = of_scene ? {scene_i, place} : {3'd0, next_q};
   always_ff @(posedge clk_i) fetch_q <= ram[address];
+  assign wrong = fetch_q[35:32] != check_of(fetch_q[31:0]);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {place_q, next_q, fetched_q, warm_q, word_error_o} <= '0;
@@ -76,7 +78,7 @@ module params #(
       place_q <= of_scene ? {4'd15, place} : {3'd0, next_q};
       if (!of_scene) next_q <= next_q + 1'b1;
       fetched_q    <= warm_q && !write_i;  // a word fetched during a write may be anything
-      word_error_o <= fetched_q && fetch_q[35:32] != check_of(fetch_q[31:0]);
+      word_error_o <= fetched_q && wrong;
     end
   end
 
@@ -86,7 +88,7 @@ module params #(
   logic loads;
   assign to    = write_i ? address_i : place_q;
   assign word  = write_i ? data_i : fetch_q[31:0];
-  assign loads = write_i || fetched_q;
+  assign loads = write_i || (fetched_q && !wrong);
   logic [cfg::PARAMS_W-1:0] p_q = cfg::PARAMS_RESET;
   assign p_o = p_q;
   generate

@@ -111,7 +111,7 @@ class AxesEngine {
   template <class Cores>
   void clock(const AxesIn<N>& in, const Cores& cores, const std::array<CoreIn, N>& each) {
     State& s = state_;
-    const bool last = cores[0].clock_of_tick() == D::clocks_per_tick - 1;
+    const bool last = cores[0].last();
     if (last) restarts_ = may_jump();
     if (cores[0].measured()) restarted_ = restarts_;
     bool law = false, armed = false, all_ask = true, zeroed = false;
@@ -152,7 +152,7 @@ class AxesEngine {
       if (check) s.check_of_these = true;
     }
     s.checks = check || (s.checks && !out_.crc_done);
-    s.sampled = s.runs == 0 && (s.sampled || cores[0].clock_of_tick() == Core::sample_clock);
+    s.sampled = s.runs == 0 && (s.sampled || cores[0].samples());
     if ((law && !s.law) || (armed && !s.armed) || zeroed || out_.changed) {
       s.runs = 2;
     } else if (out_.fresh && s.runs != 0) {

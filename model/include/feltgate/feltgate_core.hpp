@@ -166,6 +166,9 @@ class FeltgateCore {
   /// refuses its request.
   bool arm_request(const CoreIn& in) const { return safe(in).arm_request; }
   bool ready() const { return safe(CoreIn{}).ready; }
+  /// Whether the next clock samples the position and a program's torque, or is the last of its tick.
+  bool samples() const { return axis_.blocks().ticks.sample; }
+  bool last() const { return axis_.blocks().ticks.last; }
   /// Whether in the next clock position, velocity and tau_hat are those of this tick.
   bool measured() const { return axis_.tick().tau_hat; }
   /// Whether the position becomes 0 in the next clock.

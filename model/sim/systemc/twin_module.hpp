@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of a design as an sc_module with the pins of rtl/core/feltgate_core.sv.
+// The twin of a design as an sc_module with the pins of model/sim/backends/feltgate_core.sv.
 // Documentation: docs/library.md
 #pragma once
 
@@ -14,8 +14,6 @@ namespace feltgate::systemc {
 
 template <class D>
 class TwinModule : public sc_core::sc_module {
-  using CurrentData = CurrentDataOf<D>;
-
  public:
   sc_core::sc_in<bool> clk_i{"clk_i"}, rst_ni{"rst_ni"};
 #define FELTGATE_PORT(type, name) sc_core::sc_in<type> name{#name};

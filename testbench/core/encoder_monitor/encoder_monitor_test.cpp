@@ -13,14 +13,14 @@
 #include "lock_step.hpp"
 #include "ports.hpp"
 
-// Twin of rtl/core/encoder/encoder_monitor.sv, clock by clock.
+// Twin of rtl/core/encoder_monitor.sv, clock by clock.
 
 namespace feltgate {
 
 class EncoderMonitor {
  public:
   struct In {
-    std::uint64_t wave = 0;
+    bool at_levels = false;
     std::uint32_t tick_count = 0;
     std::uint8_t levels = 0;
     bool index_wrong = false;
@@ -43,7 +43,7 @@ class EncoderMonitor {
     out_.flip_trip = parity != parity_q_ && in.step == 0 && !zeroed_q_;
     parity_q_ = parity;
     zeroed_q_ = in.set_zero;
-    if (((in.wave >> Map::T::levels) & 1u) == 0) return;
+    if (!in.at_levels) return;
     law_.tick(in.levels, in.tick_count, in.index_wrong, in.count);
     out_ = {law_.moved(), law_.chatters(), law_.trips(), law_.index_trips(), out_.flip_trip};
   }
@@ -75,8 +75,7 @@ using Twin = EncoderMonitor;
 
 struct Adapter {
   static void drive(Vencoder_monitor& rtl, const Twin::In& in) {
-    FELTGATE_DRIVE(rtl, in, tick_count, levels, index_wrong, count, zero, step, set_zero);
-    FELTGATE_STROBES(rtl, in.wave, at, T, levels);
+    FELTGATE_DRIVE(rtl, in, at_levels, tick_count, levels, index_wrong, count, zero, step, set_zero);
   }
   template <class Check>
   static void compare(Check& check, const Vencoder_monitor& rtl, const Twin::Out& out) {
@@ -98,7 +97,6 @@ struct Parameters {
 };
 constexpr Parameters kParameters{FELTGATE_MONITOR};
 
-constexpr std::uint64_t kSample = std::uint64_t{1} << Map::T::levels;
 constexpr int kEdgeUnit = 1 << kParameters.edge_bits, kChatterUnit = 4 * kEdgeUnit;
 constexpr int kEnds = Map::edge_units * kEdgeUnit;  ///< ticks without an edge that end a row
 constexpr int kLasts = Map::chatter_units * kChatterUnit;
@@ -108,10 +106,10 @@ class Script {
  public:
   Script& ticks(int n) {
     for (; n > 0; --n) {
-      list_.push_back({kSample, tick_, levels_, false, count_});
+      list_.push_back({true, tick_, levels_, false, count_});
       law_.tick(levels_, tick_++, false, count_);
       trips_ += law_.trips();
-      list_.push_back({0, tick_, static_cast<std::uint8_t>(levels_ ^ 3u), false, count_});
+      list_.push_back({false, tick_, static_cast<std::uint8_t>(levels_ ^ 3u), false, count_});
     }
     return *this;
   }
@@ -164,7 +162,7 @@ struct Stimulus {
   int clock = 0, period = 1, left = 0, way = 0, kind = 0, mean = 1;
 
   Twin::In operator()(std::int64_t) {
-    in.wave = clock == 0 ? kSample : random.bits() & ~kSample;
+    in.at_levels = clock == 0;
     if (clock == 0) tick();
     if (random.one_in(50)) in.index_wrong = !in.index_wrong;
     count();

@@ -167,5 +167,5 @@ TEST_CASE("core: sampled position to duty register in the clocks that the schedu
     twin.clock(in);
     ++clocks;
   }
-  CHECK(clocks == feltgate::axis::Axis::first_duty_clock - sample);
+  CHECK(clocks == twin.duty_clock() - sample);
 }

@@ -206,7 +206,7 @@ class Beside : public sc_core::sc_module {
       sensor_.turn(0.9, 0.9, clocks, 1);
       in.encoder_data = sensor_.pin(clocks, o.serial);
     }
-    board.in.current_data_i.write(static_cast<systemc::CurrentDataOf<D>>(in.current_data));
+    board.in.current_data_i.write(in.current_data);
     board.in.hall_i.write(in.hall);
     board.in.encoder_data_i.write(in.encoder_data);
     board.in.arm_i.write(in.arm);

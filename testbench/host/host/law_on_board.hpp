@@ -88,14 +88,14 @@ class BoardInProcess : public host::Transport {
 using host::LawEngine;
 
 template <class D>
-const design::Elaborated& design_of() {
+const design::Elaborated& elaborated() {
   static const host::KnownDesign known = host::read_known_design(
       FELTGATE_ROOT, std::string(FELTGATE_ROOT "/rtl/designs/") + D::name + ".toml");
   return known.design;
 }
 
 inline law::Image compiled(const std::string& text, const std::string& name = "test") {
-  return law::compile_text(text, name, design::law_target(design_of<LeverLaw>())).image;
+  return law::compile_text(text, name, design::law_target(elaborated<LeverLaw>())).image;
 }
 
 inline const law::Image& spring() {
@@ -120,7 +120,7 @@ template <class D>
 struct OnWire {
   std::unique_ptr<BoardInProcess<D>> wire = std::make_unique<BoardInProcess<D>>();
   host::Link link{*wire};
-  host::Device device{link, host::read_board(link), design_of<D>()};
+  host::Device device{link, host::read_board(link), elaborated<D>()};
 };
 struct OnBoard : OnWire<LeverLaw> {
   LawEngine engine{device};

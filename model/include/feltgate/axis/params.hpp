@@ -59,7 +59,7 @@ class Params {
     error_ = fetched_ && fetch_ != ParamsMemory::checked(fetched);
     if (write) {
       load(m, formats, address, data);
-    } else if (fetched_) {
+    } else if (fetched_ && !error_) {
       load(m, formats, place_, fetched);
     }
     fetched_ = warm_ && !write;

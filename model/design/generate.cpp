@@ -251,10 +251,7 @@ std::uint32_t design_crc(const Elaborated& e) {
   return crc32(text.data(), text.size());
 }
 
-namespace {
-
-/// The header with this line about its sum.
-std::string header_with(const Elaborated& e, const std::string& sum_line) {
+std::string cpp_header(const Elaborated& e) {
   const Design& d = e.design;
   std::ostringstream s;
   s << banner(e, "")
@@ -283,7 +280,6 @@ std::string header_with(const Elaborated& e, const std::string& sum_line) {
       "  static constexpr std::uint32_t design_crc = 0x{:08x};  // by which a host knows the "
       "design\n",
       design_crc(e));
-  s << sum_line;
   s << "\n  /// Formats of the parameters.\n  struct P {\n";
   for (const Word& w : e.words) {
     s << "    static constexpr Format " << w.parameter.name << triple(w.format) << ";\n";
@@ -320,26 +316,6 @@ std::string header_with(const Elaborated& e, const std::string& sum_line) {
   }
   s << "  };\n};\n\n}  // namespace feltgate\n";
   return s.str();
-}
-
-}  // namespace
-
-std::uint32_t file_sum(const Elaborated& e) {
-  const std::string text = cfg_package(e) + header_with(e, "") + memory_text(e);
-  return crc32(text.data(), text.size());
-}
-
-std::string cpp_header(const Elaborated& e) {
-  return header_with(e, fmt::format("  static constexpr std::uint32_t file_sum = 0x{:08x};  // by "
-                                    "which a program notices that the file has changed\n",
-                                    file_sum(e)));
-}
-
-void require_current(const Elaborated& e, std::uint32_t sum, const std::string& mend) {
-  if (file_sum(e) == sum) return;
-  throw std::invalid_argument(fmt::format(
-      "{}: the file has changed since design {} was made of it, so what it says is not used; {}",
-      e.design.path, e.design.name, mend));
 }
 
 std::string memory_text(const Elaborated& e) {

@@ -55,12 +55,6 @@ std::string bits_text(const Field& f);
 /// CRC-32 of everything that a host must know of a design to interpret its words: docs/link.md.
 std::uint32_t design_crc(const Elaborated& e);
 
-/// CRC-32 of all that is generated of a design: it changes with whatever the design's file says.
-std::uint32_t file_sum(const Elaborated& e);
-/// Throws std::invalid_argument where the design is not that of this file_sum() any more: which
-/// file has changed, and what mends it.
-void require_current(const Elaborated& e, std::uint32_t sum, const std::string& mend);
-
 /// The table that `feltgate design NAME` prints.
 std::string design_table(const Elaborated& e);
 

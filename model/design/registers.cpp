@@ -194,10 +194,7 @@ std::vector<Cause> read_causes(config::TomlReader& top, const std::string& secti
   return causes;
 }
 
-}  // namespace
-
-RegisterMap read_registers(const std::string& path) {
-  const toml::table root = config::parse_toml_file(path);
+RegisterMap registers_of(const toml::table& root, const std::string& path) {
   config::TomlReader top(root, path, "the register map");
   RegisterMap map;
   map.path = path;
@@ -232,6 +229,16 @@ RegisterMap read_registers(const std::string& path) {
   map.faults = read_causes(top, "fault", "number", 1);
   top.finish();
   return map;
+}
+
+}  // namespace
+
+RegisterMap read_registers(const std::string& path) {
+  return registers_of(config::parse_toml_file(path), path);
+}
+
+RegisterMap registers_from_text(const std::string& text, const std::string& path) {
+  return registers_of(config::parse_toml_text(text, path), path);
 }
 
 }  // namespace feltgate::design

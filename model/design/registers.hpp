@@ -104,5 +104,7 @@ constexpr int snapshot_base = 0x300;
 /// Reads the map. Throws config::ConfigError with file and line for a malformed entry, a slot that
 /// is used twice, or an unknown scene.
 RegisterMap read_registers(const std::string& path);
+/// The same of a text; errors name it `path`.
+RegisterMap registers_from_text(const std::string& text, const std::string& path);
 
 }  // namespace feltgate::design

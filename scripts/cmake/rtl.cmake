@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_rtl: the Verilated core of each design, alone and in lock-step with its twin. A program that
-# links it gets the back-ends "rtl" and "lockstep" from make_backend().
+# feltgate_rtl: the Verilated cores of lever and paper, alone and in lock-step with their twins. A program that links it
+# gets the back-ends "rtl" and "lockstep" from make_backend(); rtl_<design> does so for another one.
 include_guard(GLOBAL)
 include(verilate)
 
@@ -67,23 +67,32 @@ function(feltgate_core_of header top sources)
   set(${sources} ${files} PARENT_SCOPE)
 endfunction()
 
-add_library(feltgate_rtl STATIC "${FELTGATE_ROOT}/model/sim/backends/rtl_backends.cpp")
-foreach(design IN LISTS FELTGATE_DESIGNS)
-  set(type ${FELTGATE_TYPE_${design}})
-  set(header "${FELTGATE_ROOT}/model/include/feltgate/generated/${design}.hpp")
+# feltgate_rtl_design(<design> <header> <package>): core_<design>, which is Verilated, and rtl_<design>, which adds it to
+# the back-ends: objects, so that it stays in every program that takes them.
+function(feltgate_rtl_design design header package)
   feltgate_core_of("${header}" top sources)
   feltgate_device_of("${header}" device)
-  feltgate_package(package ${design})
   feltgate_verilate(core_${design} ${top} "${package};${sources}" CLASS Vcore_${design} FASTEST ${device})
-  feltgate_for_design(rtl "${PROJECT_BINARY_DIR}/backends/${design}_rtl.cpp")
-  add_library(rtl_${design} OBJECT "${PROJECT_BINARY_DIR}/backends/${design}_rtl.cpp")
+  feltgate_type_of(${design} type)
+  # A source of each design, so that each has an object: what it includes differs.
+  set(source "${PROJECT_BINARY_DIR}/rtl/${design}.cpp")
+  file(CONFIGURE OUTPUT "${source}" CONTENT "#include \"sim/backends/rtl_of_design.cpp\"\n")
+  add_library(rtl_${design} OBJECT "${source}")
+  target_compile_definitions(rtl_${design} PRIVATE FELTGATE_DESIGN=${type} FELTGATE_DESIGN_HEADER="${header}"
+    FELTGATE_RTL=Vcore_${design} FELTGATE_RTL_HEADER="Vcore_${design}.h")
   target_compile_options(rtl_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
-  target_link_libraries(rtl_${design} PRIVATE feltgate_model core_${design} fmt::fmt)
-  target_sources(feltgate_rtl PRIVATE $<TARGET_OBJECTS:rtl_${design}>)
-  target_link_libraries(feltgate_rtl PUBLIC core_${design})
+  target_link_libraries(rtl_${design} PRIVATE feltgate_registry core_${design} fmt::fmt)
+endfunction()
+
+add_library(feltgate_rtl INTERFACE)
+foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_PRESETS)
+  feltgate_package(package ${design})
+  feltgate_rtl_design(${design} "${FELTGATE_ROOT}/model/include/feltgate/generated/${design}.hpp" "${package}")
+  if(design IN_LIST FELTGATE_DESIGNS)
+    target_sources(feltgate_rtl INTERFACE $<TARGET_OBJECTS:rtl_${design}>)
+    target_link_libraries(feltgate_rtl INTERFACE core_${design})
+  else()
+    set_target_properties(core_${design} rtl_${design} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
 endforeach()
-target_link_libraries(feltgate_rtl PUBLIC feltgate_backends PRIVATE fmt::fmt)
-target_include_directories(feltgate_rtl PRIVATE "${PROJECT_BINARY_DIR}/backends")
-target_compile_options(feltgate_rtl PRIVATE ${FELTGATE_BACKEND_OPTIONS})
-# An archive's member is linked where something asks for it: this asks for the registration.
-target_link_options(feltgate_rtl INTERFACE "LINKER:--undefined=feltgate_rtl_backends")
+target_link_libraries(feltgate_rtl INTERFACE feltgate_backends)

@@ -10,6 +10,7 @@
 
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
+#include "twins.hpp"
 
 namespace feltgate::test {
 
@@ -50,7 +51,7 @@ class PortCore {
   int taken() const { return taken_; }
 
  private:
-  FeltgateCore<Lever> core_;
+  test::CoreOf<Lever> core_;
   int taken_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/causes.hpp"
 #include "random.hpp"
+#include "twins.hpp"
 
 #include FELTGATE_DESIGN_HEADER
 
@@ -14,7 +15,7 @@ namespace {
 
 using namespace feltgate;
 using D = FELTGATE_DESIGN;
-using Core = FeltgateCore<D>;
+using Core = test::CoreOf<D>;
 
 CoreIn at_count(std::uint32_t count) {
   const unsigned phase = count & 3u;

@@ -14,6 +14,7 @@
 #include "sim/plant/drive.hpp"
 #include "sim/plant/plant.hpp"
 #include "sim/plant/plant_file.hpp"
+#include "twins.hpp"
 
 namespace feltgate::test {
 
@@ -47,7 +48,7 @@ class Rig {
   const CoreOut& out() const { return device.out(); }
   const plant::Observables& lever() const { return plant.observables(); }
 
-  TwinDevice<D> device;
+  test::TwinDeviceOf<D> device;
   plant::Plant plant;
   Wiring wiring;
 

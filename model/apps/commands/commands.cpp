@@ -137,40 +137,18 @@ design::Elaborated elaborated_design(const std::string& name) {
                            design::read_registers(repository() + "/rtl/registers.toml"));
 }
 
-void check_design_files() {
-  check_designs([](const DesignInfo& design) {
-    const fs::path file =
-        fs::path(repository()) / "rtl/designs" / (design.name + std::string(".toml"));
-    if (!fs::exists(file)) return;
-    design::require_current(
-        elaborated_design(design.name), design.file_sum,
-        "run ./feltgate generate, then this command by way of ./feltgate, which builds it anew");
-  });
+void use_design_files() {
+  set_design_source(
+      {[](const std::string& name) { return design::info_of(elaborated_design(name)); },
+       [] {
+         const std::set<std::string> names = names_in("rtl/designs");
+         return std::vector<std::string>(names.begin(), names.end());
+       }});
 }
 
 std::string built_design(const std::string& given) {
-  const std::vector<std::string> built = design_names();
-  if (std::find(built.begin(), built.end(), given) != built.end()) return given;
-  const std::set<std::string> names = names_in("rtl/designs");
-  if (!is_path(given)) {
-    if (find_axes_design(given) != nullptr) return given;
-    if (names.count(given) > 0) {
-      (void)design_named(given);  // a preset: this program has it, or that says how it is built
-      return given;
-    }
-    throw std::invalid_argument(fmt::format("design \"{}\" is unknown; {}choose one of {}", given,
-                                            config::did_you_mean(given, names),
-                                            fmt::join(names, ", ")));
-  }
-  const std::string file = find_file(given, "rtl/designs");
-  const std::string name = design::read_design(file).name;
-  const fs::path ours = fs::path(repository()) / "rtl/designs" / (name + ".toml");
-  const bool known = std::find(built.begin(), built.end(), name) != built.end();
-  if (known && text_of(file) == text_of(ours)) return name;
-  throw std::invalid_argument(
-      fmt::format("{}: a design runs once it is built in; copy it to rtl/designs/{}.toml{}, run "
-                  "`./feltgate generate`, then give --design {}",
-                  given, name, known ? " under a name of its own" : "", name));
+  (void)design_named(given);  // names the choices where it is none
+  return given;
 }
 
 Progress::Progress(std::string label, bool quiet)

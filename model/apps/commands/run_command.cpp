@@ -204,7 +204,7 @@ int run(RunArguments a) {
       throw std::invalid_argument("--torque-scale is for scenes of one lever; leave it out");
     }
     if (law_scenes().axes == nullptr) refuse_laws(scene_path + ": ");
-    a.design = a.design.empty() ? "lever" : built_design(a.design);
+    if (!a.design.empty()) a.design = built_design(a.design);
     return law_scenes().axes(scene_path, a);
   }
   if (a.columns) {

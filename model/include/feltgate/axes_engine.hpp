@@ -24,9 +24,10 @@ struct Program {
 };
 
 /// Without an engine: the programmed torques come from the ports.
-template <class D, int N>
+template <int N>
 class NoAxesEngine {
  public:
+  explicit NoAxesEngine(const axis::Design&) {}
   void reset() {}
   template <class Cores>
   void clock(const AxesIn<N>&, const Cores&, const std::array<CoreIn, N>&) {}
@@ -59,12 +60,15 @@ class NoAxesEngine {
 };
 
 /// The engine, the check of its programs at each arming, and the decision when a torque may jump.
-template <class D, int N>
+template <int N>
 class AxesEngine {
  public:
-  using EngineOf = law::Engine<N, D::f.torque.width()>;
+  using EngineOf = law::Engine<N>;
 
-  AxesEngine() { reset(); }
+  explicit AxesEngine(const axis::Design& d)
+      : runs_(static_cast<unsigned>(d["ENGINE_MAX_AGE"]), d["TORQUE_W"], timing(d)) {
+    reset();
+  }
 
   EngineOf& engine() { return runs_.clocked(); }
   const EngineWatch& watch() const { return runs_.watch(); }
@@ -260,14 +264,14 @@ class AxesEngine {
     return core.out().scene == Map::S::law;
   }
 
-  using Runs = law::EngineRuns<N, D::f.torque.width()>;
-  using Core = FeltgateCore<D>;
-  static constexpr int kMeasured = Core::measured_clock;
-  static constexpr law::RunTiming kTiming{
-      D::clocks_per_tick, kMeasured - Core::sample_clock - 1, kMeasured - Core::velocity_clock,
-      Core::law_duty_clock - kMeasured - 1};
+  static law::RunTiming timing(const axis::Design& d) {
+    using Core = FeltgateCore;
+    constexpr int measured = Core::measured_clock;
+    return {d["CLOCKS_PER_TICK"], measured - Core::sample_clock - 1,
+            measured - Core::velocity_clock, Core::law_duty_clock - measured - 1};
+  }
 
-  Runs runs_{D::engine_max_age, kTiming};
+  law::EngineRuns<N> runs_;
   typename EngineOf::Out out_;
   State state_;
   /// restarts_: may_jump() at the end of the last tick; restarted_: see restarted().

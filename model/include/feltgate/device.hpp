@@ -31,8 +31,8 @@ struct Parameter {
   double low = 0, high = 0, step = 0;
 };
 
-/// A device of any design; TwinDevice<Lever> below is one, make_device("lever") of feltgate::sim
-/// gives another. Requests (parameters, scene, arming) take effect with the next ticks, as at the
+/// A device of any design; TwinDevice below is the twin's, make_device("lever") of feltgate::sim
+/// makes one by the name of its design. Requests (parameters, scene, arming) take effect with the next ticks, as at the
 /// pins.
 class Device {
  public:
@@ -124,13 +124,12 @@ class Device {
   bool cleared_ = false;           ///< its write is sent in this tick
 };
 
-/// The twin of design D as a device.
-template <class D>
+/// The twin of a design as a device: TwinDevice(design_info<Lever>()).
 class TwinDevice final : public Device {
  public:
-  TwinDevice() : Device(design_info<D>()) {}
+  explicit TwinDevice(const DesignInfo& design) : Device(design), core_(design.data) {}
   const CoreOut& out() const override { return core_.out(); }
-  const FeltgateCore<D>& core() const { return core_; }
+  const FeltgateCore& core() const { return core_; }
 
  private:
   void step(const CoreIn& in) override {
@@ -141,7 +140,7 @@ class TwinDevice final : public Device {
     core_.run(in, clocks, [this] { note(core_.out()); });
   }
 
-  FeltgateCore<D> core_;
+  FeltgateCore core_;
 };
 
 }  // namespace feltgate

@@ -17,7 +17,7 @@
 namespace feltgate {
 
 inline Device::Device(DesignInfo design) : design_(std::move(design)) {
-  for (int i = 0; i < design_.parameter_count; ++i) raw_.push_back(design_.parameters[i].raw);
+  for (const ParameterInfo& p : design_.parameters) raw_.push_back(p.raw);
 }
 
 /// Sets the arm pin; arming needs a request that was low at the end of the tick before. A request
@@ -176,22 +176,20 @@ inline void Device::set(const std::string& parameter, double value) {
     throw std::invalid_argument(text.str());
   }
   if (holds(p.address)) refuse_while_armed(parameter);
-  raw_[static_cast<std::size_t>(&p - design_.parameters)] = *raw;
+  raw_[static_cast<std::size_t>(&p - design_.parameters.data())] = *raw;
   write(p.address, static_cast<std::uint32_t>(*raw));
 }
 
 inline Parameter Device::parameter(const std::string& name) const {
   const ParameterInfo& p = find(name);
   const ValueRange range = range_of(p);
-  const std::int64_t raw = raw_[static_cast<std::size_t>(&p - design_.parameters)];
+  const std::int64_t raw = raw_[static_cast<std::size_t>(&p - design_.parameters.data())];
   return {p.name, p.unit, static_cast<double>(raw) * range.step, range.low, range.high, range.step};
 }
 
 inline std::vector<Parameter> Device::parameters() const {
   std::vector<Parameter> all;
-  for (int i = 0; i < design_.parameter_count; ++i) {
-    all.push_back(parameter(design_.parameters[i].name));
-  }
+  for (const ParameterInfo& p : design_.parameters) all.push_back(parameter(p.name));
   return all;
 }
 

@@ -21,16 +21,17 @@ namespace feltgate::law {
 /// the clock in which the hardware shows it. Writes since the start of the run before can be
 /// undone, so the clocked twin can continue from any clock with the same state as if it had been
 /// used throughout.
-template <int AxisCount, int TorqueW>
+template <int AxisCount>
 class EngineRuns {
  public:
-  using Clocked = Engine<AxisCount, TorqueW>;
+  using Clocked = Engine<AxisCount>;
   using In = typename Clocked::In;
   using Out = typename Clocked::Out;
   using Axes = typename EngineInputs<AxisCount>::Axes;
   using Timing = RunTiming;
 
-  EngineRuns(unsigned max_age, const Timing& timing) : engine_(max_age), ticks_(timing) {}
+  EngineRuns(unsigned max_age, int torque_bits, const Timing& timing)
+      : engine_(max_age, torque_bits), ticks_(timing) {}
 
   /// The engine as clocked twin, from the present clock on.
   Clocked& clocked() {
@@ -276,9 +277,8 @@ class EngineRuns {
       }
       if (step.to >= 0) write(step.to, s.acc);
       if (i.dst == static_cast<int>(EngineTarget::output) && (i.d & 3) < AxisCount) {
-        constexpr std::int32_t top = (1 << (TorqueW - 1)) - 1;
         comes.mask |= 1U << (i.d & 3);
-        comes.torque[static_cast<std::size_t>(i.d & 3)] = std::clamp(s.acc, -top - 1, top);
+        comes.torque[static_cast<std::size_t>(i.d & 3)] = engine_.outputs_.limited(s.acc);
       }
       if (i.dst == static_cast<int>(EngineTarget::event)) {
         events_.push_back({n + stages * count + 8, i.d, s.acc});

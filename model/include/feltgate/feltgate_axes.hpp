@@ -10,25 +10,30 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 #include "feltgate/axes_engine.hpp"
 #include "feltgate/feltgate_core.hpp"
 
 namespace feltgate {
 
-/// N axes of design D, each a core. The device adds the signals between the cores, the register
+/// N axes of a design, each a core. The device adds the signals between the cores, the register
 /// port, and with WithEngine the engine; its torque then replaces the inputs law_... What a core takes
 /// of the program, and whether an axis before it tests itself, is sampled with the position.
-template <class D, int N, bool ReadBack = true, bool WithEngine = false>
+template <int N, bool WithEngine = false>
 class FeltgateAxes {
  public:
   static_assert(N >= 1 && N <= 3, "one to three axes");
-  using Core = FeltgateCore<D, ReadBack>;
-  using Glue = std::conditional_t<WithEngine, AxesEngine<D, N>, NoAxesEngine<D, N>>;
+  using Core = FeltgateCore;
+  using Glue = std::conditional_t<WithEngine, AxesEngine<N>, NoAxesEngine<N>>;
   using In = AxesIn<N>;
   using Out = AxesOut<N>;
 
-  FeltgateAxes() { show({}); }
+  /// `reads`: a host reads the words of the axes.
+  explicit FeltgateAxes(const axis::Design& d, bool reads = true)
+      : cores_(make_cores(Core(d, reads), std::make_index_sequence<N>())), glue_(d) {
+    show({});
+  }
 
   /// The parameter RAMs keep their words, as in the RTL.
   void reset() {
@@ -98,6 +103,11 @@ class FeltgateAxes {
   }
 
  private:
+  template <std::size_t... Axis>
+  static std::array<Core, N> make_cores(const Core& core, std::index_sequence<Axis...>) {
+    return {(static_cast<void>(Axis), core)...};
+  }
+
   static constexpr int kSample = Core::sample_clock, kMeasured = Core::measured_clock;
   static constexpr unsigned kAll = (1U << N) - 1;
   /// What the cores have taken with the position.
@@ -115,7 +125,7 @@ class FeltgateAxes {
   [[gnu::noinline]] void one_clock(const In& in, const std::array<CoreIn, N>& each) {
     const int at = clock_of_tick();
     if (at == kSample) taken_ = take(in, 0);
-    duties_ = at == D::clocks_per_tick - 1 ? 0 : duties_ | duties();
+    duties_ = at == cores_[0].clocks_per_tick() - 1 ? 0 : duties_ | duties();
     glue_.clock(in, cores_, each);
     for (std::size_t n = 0; n < N; ++n) cores_[n].clock(each[n]);
     show_axes();
@@ -147,7 +157,7 @@ class FeltgateAxes {
   template <class Watcher>
   [[gnu::noinline]] int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t at,
                              std::int64_t clocks, bool* snapshot, Watcher& watcher) {
-    constexpr int tick = D::clocks_per_tick;
+    const int tick = cores_[0].clocks_per_tick();
     const int from = clock_of_tick();
     int to = static_cast<int>(std::min<std::int64_t>(tick, from + clocks - at));
     if (WithEngine) {

@@ -11,10 +11,11 @@
 
 namespace feltgate {
 
-/// N axes of design D, with the engine if the design has one, behind the link's register port.
-template <class D, int N>
+/// N axes of a design, with the engine if the design has one, behind the link's register port.
+template <int N, bool WithEngine>
 class LinkedAxes {
  public:
+  explicit LinkedAxes(const axis::Design& d) : axes_(d) {}
   void reset() { axes_.reset(); }
   void clock(const AxesIn<N>& in) { axes_.clock(taking(in)); }
   /// Like clock() for `clocks` clocks; also calls `on_event(clock, number)` for each event of the
@@ -34,7 +35,7 @@ class LinkedAxes {
   int event_number() const { return axes_.glue().event_number(); }
   /// Whether the block at this address cannot take a write in the next clock.
   bool busy(std::uint16_t address) const {
-    if constexpr (D::engine != 0) {
+    if constexpr (WithEngine) {
       if (address >> 12 == axes_engine >> 12) return axes_.glue().port_busy();
     }
     return address < N * axes_stride && axes_.core(address / axes_stride).out().reg_busy;
@@ -42,8 +43,8 @@ class LinkedAxes {
   /// A word of axis n by its slot: of the running tick, or between two ticks of the last one.
   std::uint32_t word(int n, int slot) const { return axes_.core(n).word(slot); }
   int clock_of_tick() const { return axes_.clock_of_tick(); }
-  FeltgateCore<D>& core(int n = 0) { return axes_.core(n); }
-  const FeltgateCore<D>& core(int n = 0) const { return axes_.core(n); }
+  FeltgateCore& core(int n = 0) { return axes_.core(n); }
+  const FeltgateCore& core(int n = 0) const { return axes_.core(n); }
   auto& engine() { return axes_.engine(); }
 
  private:
@@ -53,7 +54,7 @@ class LinkedAxes {
     return in;
   }
 
-  FeltgateAxes<D, N, true, (D::engine != 0)> axes_;
+  FeltgateAxes<N, WithEngine> axes_;
 };
 
 }  // namespace feltgate

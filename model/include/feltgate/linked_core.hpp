@@ -27,20 +27,24 @@
 
 namespace feltgate {
 
-/// Core and link of design D, or N axes and their link.
-template <class D, int N = 1>
+/// Core and link, or N axes and their link; with an engine one axis is such a device, too.
+template <int N = 1, bool WithEngine = false>
 class LinkedCore {
  public:
-  using Device = std::conditional_t<D::engine != 0 || N != 1, LinkedAxes<D, N>, FeltgateCore<D>>;
+  using Device = std::conditional_t<WithEngine || N != 1, LinkedAxes<N, WithEngine>, FeltgateCore>;
   using In = std::conditional_t<N == 1, LinkedIn, LinkedAxesIn<N>>;
   using Out = std::conditional_t<N == 1, LinkedOut, LinkedAxesOut<N>>;
 
-  explicit LinkedCore(LinkedOptions o = {})
-      : rx_(uart_step(D::clock_hz, o.baud)),
-        receiver_(D::engine != 0),
-        port_({o.simulated, o.board, kFeatures}),
-        tx_(uart_step(D::clock_hz, o.baud)),
-        line_(D::clock_hz, o.baud) {
+  explicit LinkedCore(const axis::Design& d, LinkedOptions o = {})
+      : core_(d),
+        rx_(uart_step(d.wide("CLOCK_HZ"), o.baud)),
+        receiver_(WithEngine),
+        port_({o.simulated, o.board, kFeatures, static_cast<std::uint32_t>(d.wide("DESIGN_CRC")),
+               static_cast<std::uint32_t>(d.wide("CLOCK_HZ")),
+               static_cast<std::uint32_t>(d["CLOCKS_PER_TICK"]), WithEngine}),
+        tx_(uart_step(d.wide("CLOCK_HZ"), o.baud)),
+        line_(d.wide("CLOCK_HZ"), o.baud),
+        tick_clocks_(d["CLOCKS_PER_TICK"]) {
     show();
   }
 
@@ -81,8 +85,8 @@ class LinkedCore {
   }
 
   const Out& out() const { return out_; }
-  const FeltgateCore<D>& core() const { return core_of(core_); }
-  FeltgateCore<D>& core() { return core_of(core_); }
+  const FeltgateCore& core() const { return core_of(core_); }
+  FeltgateCore& core() { return core_of(core_); }
   /// The block at the register port: the core, or an axis with its engine.
   Device& device() { return core_; }
 
@@ -119,9 +123,9 @@ class LinkedCore {
 
  private:
   static constexpr bool kAxes = N > 1;
-  static constexpr bool kCore = std::is_same_v<Device, FeltgateCore<D>>;
-  using Port = LinkPort<D, N>;
-  using Capture = LinkCapture<1 << LinkMap::rows_log2, D::engine != 0>;
+  static constexpr bool kCore = std::is_same_v<Device, FeltgateCore>;
+  using Port = LinkPort<N>;
+  using Capture = LinkCapture<1 << LinkMap::rows_log2, WithEngine>;
   struct NoView {
     void reset() {}
   };
@@ -149,7 +153,7 @@ class LinkedCore {
   };
   static constexpr std::uint32_t kFeatures =
       1U << LinkMap::B::features_capture | 1U << LinkMap::B::features_stream |
-      (D::engine != 0 ? 1U : 0U) << LinkMap::B::features_engine |
+      (WithEngine ? 1U : 0U) << LinkMap::B::features_engine |
       LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
       LinkMap::columns << LinkMap::B::features_columns;
 
@@ -203,8 +207,8 @@ class LinkedCore {
       w.number[n] = linked::number_of(o.word_slot);
       w.data[n] = o.word_data;
     }
-    w.last = core_.clock_of_tick() == kTick - 1;
-    if constexpr (D::engine != 0) {
+    w.last = core_.clock_of_tick() == tick_clocks_ - 1;
+    if constexpr (WithEngine) {
       w.event_valid = core_.event_valid();
       w.event_number = core_.event_number();
     }
@@ -239,20 +243,16 @@ class LinkedCore {
 
   FrameByte offer() const { return {stream_.out().valid, stream_.out().byte, stream_.out().last}; }
 
-  static constexpr int kTick = D::clocks_per_tick;
   static constexpr int kWords = LinkMap::snapshot_words;
   /// Number of the word that each axis gives in a clock of this tick; -1: none.
-  using WordsByClock = std::array<std::array<std::int8_t, kTick>, N>;
-  WordsByClock words_by_clock() const {
-    WordsByClock all;
+  void note_words_by_clock() {
     for (std::size_t n = 0; n < N; ++n) {
-      all[n].fill(-1);
+      given_[n].assign(static_cast<std::size_t>(tick_clocks_), -1);
       for (int k = 0; k < kWords; ++k) {
         const int number = linked::number_of(axis::Snapshot::places[k]);
-        all[n][static_cast<std::size_t>(given_at(n, k))] = static_cast<std::int8_t>(number);
+        given_[n][static_cast<std::size_t>(given_at(n, k))] = static_cast<std::int8_t>(number);
       }
     }
-    return all;
   }
   /// Clock of the tick in which an axis gives its k-th word.
   int given_at(std::size_t n, int k) const {
@@ -263,20 +263,20 @@ class LinkedCore {
   }
   /// Clock in which stream and capture see the last word of a tick.
   int last_word() const {
-    return kAxes ? (LinkView<N>::delay - 1) % kTick : given_at(0, kWords - 1);
+    return kAxes ? (LinkView<N>::delay - 1) % tick_clocks_ : given_at(0, kWords - 1);
   }
 
   /// How many of `quiet` clocks can be passed at once: the rest of a tick, or whole ticks of which
   /// stream and capture need only the last; never past the last word of a frame.
   std::int64_t stretch(std::int64_t quiet) const {
     const int at = core_.clock_of_tick();
-    if (!kAxes && at == 0 && quiet >= kTick && !stream_.on() && !capture_.runs()) {
-      return quiet / kTick * kTick;
+    if (!kAxes && at == 0 && quiet >= tick_clocks_ && !stream_.on() && !capture_.runs()) {
+      return quiet / tick_clocks_ * tick_clocks_;
     }
     if (stream_.keeps() && at <= last_word()) {
       quiet = std::min<std::int64_t>(quiet, last_word() - at);
     }
-    return std::min<std::int64_t>(quiet, kTick - at);
+    return std::min<std::int64_t>(quiet, tick_clocks_ - at);
   }
 
   /// Passes a stretch of quiet clocks; of several ticks the last one's words count.
@@ -284,8 +284,8 @@ class LinkedCore {
   void pass(const In& in, const typename Port::Out& port, std::int64_t clocks,
             OnSnapshot&& on_snapshot) {
     const int from = core_.clock_of_tick();
-    const int to = static_cast<int>(from + std::min<std::int64_t>(clocks, kTick));
-    const auto given = words_by_clock();
+    const int to = static_cast<int>(from + std::min<std::int64_t>(clocks, tick_clocks_));
+    note_words_by_clock();
     const auto at_snapshot = [&] {
       show();
       on_snapshot();
@@ -303,13 +303,13 @@ class LinkedCore {
     for (int at = from; at < to; ++at) {
       Words words;
       for (std::size_t n = 0; n < N; ++n) {
-        const int k = given[n][static_cast<std::size_t>(at)];
+        const int k = given_[n][static_cast<std::size_t>(at)];
         words.valid[n] = k >= 0;
         if (k < 0) continue;
         words.number[n] = static_cast<std::uint8_t>(k);
         words.data[n] = device_word(n, LinkMap::slots[k]);
       }
-      words.last = at == kTick - 1;
+      words.last = at == tick_clocks_ - 1;
       if (told < events_.size() && events_[told].clock == at) {
         words.event_valid = true;
         words.event_number = events_[told++].number;
@@ -325,8 +325,8 @@ class LinkedCore {
     }
   }
 
-  static FeltgateCore<D>& core_of(FeltgateCore<D>& core, std::size_t = 0) { return core; }
-  static const FeltgateCore<D>& core_of(const FeltgateCore<D>& core, std::size_t = 0) {
+  static FeltgateCore& core_of(FeltgateCore& core, std::size_t = 0) { return core; }
+  static const FeltgateCore& core_of(const FeltgateCore& core, std::size_t = 0) {
     return core;
   }
   template <class Axes>
@@ -355,7 +355,9 @@ class LinkedCore {
   UartTx tx_;
   UartLine line_;
   Out out_;
+  int tick_clocks_;
   std::vector<Event> events_;  ///< of a stretch, while a capture runs
+  std::array<std::vector<std::int8_t>, N> given_;
 };
 
 }  // namespace feltgate

@@ -43,8 +43,8 @@ void set_bits(Port& port, int first, int width, std::uint64_t value) {
   }
 }
 
-/// Sets every input except clock and reset of N axes of design D; the engine gives the torques.
-template <class D, int N, class Rtl>
+/// Sets every input except clock and reset of N axes; the engine gives the torques.
+template <int N, class Rtl>
 void drive_axes(Rtl& rtl, const AxesIn<N>& in) {
   unsigned a = 0, b = 0, z = 0, data = 0;
   for (int n = 0; n < N; ++n) {
@@ -68,10 +68,9 @@ void drive_axes(Rtl& rtl, const AxesIn<N>& in) {
   rtl.reg_read_i = in.reg_read;
 }
 
-/// Every output of axis n after an edge, for design D; read data belong to the device, not the
-/// axis.
-template <class D, class Rtl>
-CoreOut read_axis(const Rtl& rtl, int n) {
+/// Every output of axis n after an edge; read data belong to the device, not the axis.
+template <class Rtl>
+CoreOut read_axis(const Rtl& rtl, const PortBits& bits, int n) {
   using C = Map::C;
   const auto number = [n](const auto& port, int width) {
     return sign_extend(bits_of(port, n * width, width), width);
@@ -81,13 +80,13 @@ CoreOut read_axis(const Rtl& rtl, int n) {
   };
   CoreOut o;
   o.position = static_cast<std::int32_t>(word(rtl.position_o, 32));
-  o.velocity = number(rtl.velocity_o, D::f.velocity.width());
-  o.tau_hat = static_cast<std::int32_t>(number(rtl.tau_hat_o, D::f.torque.width()));
-  o.tau_ref = static_cast<std::int32_t>(number(rtl.tau_ref_o, D::f.torque.width()));
-  o.current_ref = static_cast<std::int32_t>(number(rtl.current_ref_o, D::f.current.width()));
-  o.voltage = static_cast<std::int32_t>(number(rtl.voltage_o, D::f.voltage.width()));
-  o.duty = static_cast<std::int16_t>(number(rtl.duty_o, D::f.duty.width()));
-  o.duty_active = static_cast<std::int16_t>(number(rtl.duty_active_o, D::f.duty.width()));
+  o.velocity = number(rtl.velocity_o, bits.velocity);
+  o.tau_hat = static_cast<std::int32_t>(number(rtl.tau_hat_o, bits.torque));
+  o.tau_ref = static_cast<std::int32_t>(number(rtl.tau_ref_o, bits.torque));
+  o.current_ref = static_cast<std::int32_t>(number(rtl.current_ref_o, bits.current));
+  o.voltage = static_cast<std::int32_t>(number(rtl.voltage_o, bits.voltage));
+  o.duty = static_cast<std::int16_t>(number(rtl.duty_o, bits.duty));
+  o.duty_active = static_cast<std::int16_t>(number(rtl.duty_active_o, bits.duty));
   o.gates =
       static_cast<std::uint8_t>(word(rtl.gate_a_hi_o, 1) | word(rtl.gate_a_lo_o, 1) << 1 |
                                 word(rtl.gate_b_hi_o, 1) << 2 | word(rtl.gate_b_lo_o, 1) << 3);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "backend.hpp"
+#include "feltgate/axis/design.hpp"
 #include "feltgate/core_ports.hpp"
 
 namespace feltgate {
@@ -68,19 +69,32 @@ FELTGATE_SOCKET_PIN(driver_fault_i)
 FELTGATE_SOCKET_PIN(heartbeat_o)
 #undef FELTGATE_SOCKET_PIN
 
+/// Bits of the results at the ports of a design, and whether it has an absolute encoder.
+struct PortBits {
+  explicit PortBits(const axis::Design& d)
+      : velocity(d["VELOCITY_W"]),
+        torque(d["TORQUE_W"]),
+        current(d["CURRENT_W"]),
+        voltage(d["VOLTAGE_W"]),
+        duty(d["DUTY_W"]),
+        absolute(d["ABSOLUTE_ENCODER"] != 0) {}
+  int velocity, torque, current, voltage, duty;
+  bool absolute;
+};
+
 /// Lines to an absolute encoder, as CoreOut::serial.
-template <class D, class Rtl>
-std::uint8_t serial_lines(const Rtl& rtl) {
-  if (D::absolute_encoder == 0) return 1;
+template <class Rtl>
+std::uint8_t serial_lines(const Rtl& rtl, const PortBits& bits) {
+  if (!bits.absolute) return 1;
   return static_cast<std::uint8_t>(get_encoder_select_no(rtl, 0) |
                                    get_encoder_clock_o(rtl, 0) << 1 |
                                    get_encoder_command_o(rtl, 0) << 2);
 }
 
-/// Sets every input except clock and reset, for design D. The caller must lower the stop with the
+/// Sets every input except clock and reset. The caller must lower the stop with the
 /// edge: it was active since the last edge, and is not in the next clock.
-template <class D, class Rtl>
-void drive_inputs(Rtl& rtl, const CoreIn& in) {
+template <class Rtl>
+void drive_inputs(Rtl& rtl, const PortBits& bits, const CoreIn& in) {
   set_enc_a_i(rtl, in.encoder.a, 0);
   set_enc_b_i(rtl, in.encoder.b, 0);
   set_enc_z_i(rtl, in.encoder.z, 0);
@@ -91,7 +105,7 @@ void drive_inputs(Rtl& rtl, const CoreIn& in) {
   rtl.reg_addr_i = in.reg_addr;
   rtl.reg_wdata_i = in.reg_wdata;
   rtl.reg_write_i = in.reg_write;
-  rtl.law_torque_i = static_cast<std::uint32_t>(in.law_torque) & ((1u << D::f.torque.width()) - 1);
+  rtl.law_torque_i = static_cast<std::uint32_t>(in.law_torque) & ((1u << bits.torque) - 1);
   rtl.law_late_i = in.law_late;
   rtl.law_restart_i = in.law_restart;
   set_encoder_data_i(rtl, in.encoder_data, 0);
@@ -109,25 +123,25 @@ void drive_inputs(Rtl& rtl, const CoreIn& in) {
   }
 }
 
-/// Every output after an edge, for design D.
-template <class D, class Rtl>
-CoreOut read_outputs(const Rtl& rtl) {
+/// Every output after an edge.
+template <class Rtl>
+CoreOut read_outputs(const Rtl& rtl, const PortBits& bits) {
   CoreOut o;
-  o.velocity = sign_extend(rtl.velocity_o, D::f.velocity.width());
+  o.velocity = sign_extend(rtl.velocity_o, bits.velocity);
   o.tick_count = rtl.tick_count_o;
   o.reg_rdata = rtl.reg_rdata_o;
   o.position = static_cast<std::int32_t>(rtl.position_o);
-  o.tau_hat = detail::narrow_word(rtl.tau_hat_o, D::f.torque.width());
-  o.tau_ref = detail::narrow_word(rtl.tau_ref_o, D::f.torque.width());
-  o.current_ref = detail::narrow_word(rtl.current_ref_o, D::f.current.width());
-  o.voltage = detail::narrow_word(rtl.voltage_o, D::f.voltage.width());
-  o.duty = static_cast<std::int16_t>(detail::narrow_word(rtl.duty_o, D::f.duty.width()));
+  o.tau_hat = detail::narrow_word(rtl.tau_hat_o, bits.torque);
+  o.tau_ref = detail::narrow_word(rtl.tau_ref_o, bits.torque);
+  o.current_ref = detail::narrow_word(rtl.current_ref_o, bits.current);
+  o.voltage = detail::narrow_word(rtl.voltage_o, bits.voltage);
+  o.duty = static_cast<std::int16_t>(detail::narrow_word(rtl.duty_o, bits.duty));
   o.duty_active =
-      static_cast<std::int16_t>(detail::narrow_word(rtl.duty_active_o, D::f.duty.width()));
+      static_cast<std::int16_t>(detail::narrow_word(rtl.duty_active_o, bits.duty));
   o.gates = static_cast<std::uint8_t>(rtl.gate_a_hi_o | rtl.gate_a_lo_o << 1 |
                                       rtl.gate_b_hi_o << 2 | rtl.gate_b_lo_o << 3 |
                                       get_gate_c_hi_o(rtl, 0) << 4 | get_gate_c_lo_o(rtl, 0) << 5);
-  o.serial = serial_lines<D>(rtl);
+  o.serial = serial_lines(rtl, bits);
   o.scene = rtl.scene_o;
   o.limits = rtl.limits_o;
   o.faults = rtl.faults_o;
@@ -142,7 +156,7 @@ CoreOut read_outputs(const Rtl& rtl) {
   o.current_clock = get_current_clock_o(rtl, 0) != 0;
   o.heartbeat = get_heartbeat_o(rtl, 0) != 0;
   if constexpr (!is_axes<Rtl>) {
-    o.current = detail::narrow_word(rtl.current_o, D::f.current.width());
+    o.current = detail::narrow_word(rtl.current_o, bits.current);
   }
   return o;
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of one design as a back-end, and its chains. Documentation:
-// docs/architecture.md
+// The twin of any design as a back-end. Documentation: docs/architecture.md
 #pragma once
 
 #include <algorithm>
@@ -10,17 +9,18 @@
 #include <memory>
 #include <string>
 
-#include "../reference/chain.hpp"
 #include "clocked_backend.hpp"
 #include "law_core.hpp"
 
 namespace feltgate {
 
-/// The twin as a back-end, from event to event.
-template <class D>
+/// The twin as a back-end, from event to event. Core: FeltgateCore, or LawCore of a design with an
+/// engine.
+template <class Core>
 class TwinBackend : public ClockedBackend {
  public:
-  TwinBackend() : ClockedBackend(design_info<D>()) {}
+  explicit TwinBackend(const DesignInfo& design)
+      : ClockedBackend(design), core_(info_.data, false) {}  // nobody reads registers through a back-end
   const char* name() const override { return "twin"; }
 
   /// Goes from event to event: pins, register writes, end of the stretch. The last clocks, in which
@@ -61,9 +61,9 @@ class TwinBackend : public ClockedBackend {
       Clock until = std::min(held, events_.next(end));
       if (!writes_.empty()) {
         const int ahead = host_write_clock - clock_of_tick;
-        until = std::min(until, now_ + (ahead > 0 ? ahead : ahead + D::clocks_per_tick));
+        until = std::min(until, now_ + (ahead > 0 ? ahead : ahead + info_.clocks_per_tick));
       }
-      const Clock last = (clock_of_tick + until - now_) % D::clocks_per_tick;
+      const Clock last = (clock_of_tick + until - now_) % info_.clocks_per_tick;
       if (may_wait && writes_.empty() && until == end && last < until - now_) {
         core_.run(in, until - last - now_, tell);
         now_ = until - last;
@@ -100,8 +100,6 @@ class TwinBackend : public ClockedBackend {
   int on_time(std::size_t leg) const override { return core_.on_time(leg); }
 
  private:
-  using Core = BackendCore<D, false>;  // nobody reads registers through a back-end
-
   /// Runs the deferred clocks; call it before the inputs change.
   void settle() {
     CoreIn in = inputs();
@@ -110,7 +108,7 @@ class TwinBackend : public ClockedBackend {
     waiting_ = 0;
   }
   void reset_core(std::uint64_t, EncoderPins) override {
-    core_ = Core();
+    core_ = Core(info_.data, false);
     waiting_ = 0;
     gates_before_ = {};
   }
@@ -119,10 +117,5 @@ class TwinBackend : public ClockedBackend {
   bool gate_times_ = true;
   GateCounts gates_before_{};
 };
-
-template <class D>
-std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
-  return make_chain(ChainDesign::of<D>(), kind);
-}
 
 }  // namespace feltgate

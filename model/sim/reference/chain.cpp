@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "feltgate/design_info.hpp"
-
 namespace feltgate {
 
 std::int64_t quantise_parameter(const ParameterInfo& info, double value) {
@@ -20,15 +18,7 @@ std::int64_t quantise_parameter(const ParameterInfo& info, double value) {
                   info.name, value, info.unit, range.low, range.high + range.step));
 }
 
-const ParameterInfo& ChainDesign::at(int address) const {
-  for (const ParameterInfo& p : parameters) {
-    if (p.address == address) return p;
-  }
-  throw std::invalid_argument(fmt::format(
-      "design {} has no parameter at address {}; docs/registers.md lists them", name, address));
-}
-
-std::unique_ptr<RealChain> make_chain(const ChainDesign& design, const std::string& kind) {
+std::unique_ptr<RealChain> make_chain(const DesignInfo& design, const std::string& kind) {
   using axis::Fixed, axis::Real;
   if (design.data["MT_COUNTS"] != 0) {
     throw std::invalid_argument(fmt::format(

@@ -19,7 +19,7 @@
 #include "feltgate/axis/scene.hpp"
 #include "feltgate/axis/torque_law.hpp"
 #include "feltgate/axis/velocity_estimator.hpp"
-#include "feltgate/parameter.hpp"
+#include "feltgate/design_info.hpp"
 #include "feltgate/quad.hpp"
 #include "real_chain.hpp"
 
@@ -29,27 +29,9 @@ namespace feltgate {
 /// Throws std::invalid_argument when it does not fit, with the range.
 std::int64_t quantise_parameter(const ParameterInfo& info, double value);
 
-/// What a chain needs of a design: beside its data the exact values.
-struct ChainDesign {
-  axis::Design data;
-  const char* name = "";
-  std::vector<ParameterInfo> parameters;
-  double velocity_gain_rad_s = 0;  ///< exact, of a count in the window; 0: what the data says
-
-  template <class D>
-  static ChainDesign of() {
-    return {axis::Design::of<D>(),
-            D::name,
-            {std::begin(D::parameters), std::end(D::parameters)},
-            D::velocity_gain_rad_s};
-  }
-  /// Throws std::invalid_argument where no parameter has this address.
-  const ParameterInfo& at(int address) const;
-};
-
 /// Makes the chain "fixed", "float", "double" or "quad". Throws std::invalid_argument for another
 /// kind, and for a design whose velocity needs the clocks of the edges.
-std::unique_ptr<RealChain> make_chain(const ChainDesign& design, const std::string& kind);
+std::unique_ptr<RealChain> make_chain(const DesignInfo& design, const std::string& kind);
 
 /// What may stand between the ramp and the torque law: nothing.
 template <class N>
@@ -66,7 +48,7 @@ class Chain final : public RealChain {
  public:
   using T = typename N::T;
 
-  Chain(const char* name, ChainDesign design, Controller controller = {})
+  Chain(const char* name, DesignInfo design, Controller controller = {})
       : name_(name),
         design_(std::move(design)),
         controller_(std::move(controller)),
@@ -238,7 +220,7 @@ class Chain final : public RealChain {
   }
 
   const char* name_;
-  ChainDesign design_;
+  DesignInfo design_;
   Controller controller_;
   axis::WordFormats formats_;
   axis::VelocityEstimator<N> velocity_law_;

@@ -93,7 +93,7 @@ template <class N>
 std::unique_ptr<Runner> laws(const char* name) {
   return std::make_unique<TickRunner<Chain<N>, Laws<N>>>(
       name, N::is_fixed ? Arithmetic::integer : Arithmetic::real,
-      std::make_unique<Chain<N>>(name, ChainDesign::of<Lever>()));
+      std::make_unique<Chain<N>>(name, design_info<Lever>()));
 }
 
 struct Known {
@@ -148,8 +148,8 @@ class ClockByClock : public ClockedBackend {
   }
 
  private:
-  void reset_core(std::uint64_t, EncoderPins) override { core_ = FeltgateCore<Lever>(); }
-  FeltgateCore<Lever> core_;
+  void reset_core(std::uint64_t, EncoderPins) override { core_ = FeltgateCore(info_.data); }
+  FeltgateCore core_{info_.data};
 };
 
 }  // namespace

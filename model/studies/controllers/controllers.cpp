@@ -19,10 +19,10 @@ namespace {
 /// Design `lever` with a word observer_gain wide enough for an observer that is fed back; `lever`
 /// feeds none back. Another encoder: a window of the velocity estimator whose gain is 2^shift, near
 /// that of `lever`.
-ChainDesign fed_lever(int lines = encoder_lines[0]) {
+DesignInfo fed_lever(int lines = encoder_lines[0]) {
   constexpr Format fed_gain{1, 3, 14};
   static_assert(fed_gain.width() == Lever::P::observer_gain.width());
-  ChainDesign design = ChainDesign::of<Lever>();
+  DesignInfo design = design_info<Lever>();
   auto& constants = design.data.constants;
   constants["P_OBSERVER_GAIN_F"] = fed_gain.fraction;
   for (ParameterInfo& p : design.parameters) {
@@ -38,7 +38,7 @@ ChainDesign fed_lever(int lines = encoder_lines[0]) {
 }
 
 template <class N>
-std::unique_ptr<RealChain> make(Kind kind, const ChainDesign& design, const Tuning& t) {
+std::unique_ptr<RealChain> make(Kind kind, const DesignInfo& design, const Tuning& t) {
   const auto with = [&](auto law) -> std::unique_ptr<RealChain> {
     return std::make_unique<Chain<N, decltype(law)>>(name_of(kind), design, law);
   };
@@ -188,7 +188,7 @@ std::unique_ptr<RealChain> make_chain(Kind kind, bool fixed, const Tuning& t, in
     throw std::invalid_argument(
         "controllers: chains exist for 500, 1024, 2500 and 10000 lines; choose one of them");
   }
-  const ChainDesign design = fed_lever(lines);
+  const DesignInfo design = fed_lever(lines);
   return fixed ? make<axis::Fixed>(kind, design, t) : make<axis::Real<double>>(kind, design, t);
 }
 

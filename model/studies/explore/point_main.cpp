@@ -55,7 +55,7 @@ class LockStepRun {
     const auto window = static_cast<std::int64_t>(lock_step_s * static_cast<double>(D::clock_hz));
     for (const Motion& motion : motions()) {
       const int scene = D::scene_number(motion.scene);
-      if (!scene_built<D>(scene)) continue;
+      if (!design_of<D>().has_scene(scene)) continue;
       write(D::A::setpoint_torque,
             std::llround(std::ldexp(motion.setpoint_nm, D::f.torque.fraction)));
       control(scene, closed_loop, true);
@@ -185,8 +185,8 @@ class LockStepRun {
 
   const std::vector<Value>& values_;
   Measurement* m_;
-  LockStepCore<Rtl, D> core_;
-  Chain<axis::Fixed> chain_{"fixed", ChainDesign::of<D>()};
+  LockStepCore<Rtl> core_{design_of<D>()};
+  Chain<axis::Fixed> chain_{"fixed", design_info<D>()};
   CoreIn in_;
   Write pending_;
   HostBeside host_{static_cast<std::uint32_t>(D::control_reset)};
@@ -204,8 +204,8 @@ constexpr double exact_gain_rad_s = D::count_rad* static_cast<double>(D::tick_hz
 
 /// Design D with it in place of its power of two or quantised gain.
 template <class D>
-ChainDesign with_exact_gain() {
-  ChainDesign design = ChainDesign::of<D>();
+DesignInfo with_exact_gain() {
+  DesignInfo design = design_info<D>();
   design.velocity_gain_rad_s = exact_gain_rad_s<D>;
   return design;
 }
@@ -220,7 +220,7 @@ class ErrorRun {
   void run(Measurement* m) {
     for (const Motion& motion : motions()) {
       const int scene = D::scene_number(motion.scene);
-      if (scene_built<D>(scene)) run(motion, scene, m);
+      if (design_of<D>().has_scene(scene)) run(motion, scene, m);
     }
   }
 
@@ -293,7 +293,7 @@ class ErrorRun {
   }
 
   const std::vector<Value>& values_;
-  Chain<axis::Fixed> fixed_{"fixed", ChainDesign::of<D>()};
+  Chain<axis::Fixed> fixed_{"fixed", design_info<D>()};
   Chain<axis::Real<Quad>> exact_{"quad", with_exact_gain<D>()};
 };
 
@@ -305,8 +305,8 @@ constexpr double settling_step_nm = 0.2;
 template <class D>
 double torque_settling_s(const std::vector<Value>& values, const plant::MotorParameters& motor) {
   const int scene = D::scene_number("setpoint");
-  if (!scene_built<D>(scene)) return -1;
-  Chain<axis::Fixed> chain("fixed", ChainDesign::of<D>());
+  if (!design_of<D>().has_scene(scene)) return -1;
+  Chain<axis::Fixed> chain("fixed", design_info<D>());
   for (const Value& v : values) chain.set_word(v.address, static_cast<std::uint32_t>(v.raw));
   chain.set_word(D::A::ramp_step, fixed_of<D::f.ramp.key()>::max_raw());
   chain.set_word(D::A::setpoint_torque, 0);

@@ -99,7 +99,7 @@ class Twin {
     return all;
   }
 
-  mutable AxesEngine<LeverLaw, kAxes> twin_;  // program() counts what was taken
+  mutable AxesEngine<kAxes> twin_{design_of<LeverLaw>()};  // program() counts what was taken
   In last_;
 };
 

@@ -16,6 +16,7 @@
 #include "feltgate/generated/lever_law.hpp"
 #include "law/image.hpp"
 #include "random.hpp"
+#include "twins.hpp"
 
 namespace feltgate::test {
 
@@ -61,7 +62,7 @@ void same(AxesOut<N> a, AxesOut<N> b, const EngineWatch& x, const EngineWatch& y
 template <int N>
 class Both {
  public:
-  using Axes = FeltgateAxes<D, N, true, true>;
+  using Axes = test::AxesOf<D, N, true, true>;
   AxesIn<N> in;
   Axes by_clock, by_event;
   std::int64_t done = 0, whole = 0;

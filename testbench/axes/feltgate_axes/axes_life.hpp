@@ -20,6 +20,7 @@
 #include "lock_step.hpp"
 #include "ports.hpp"
 #include "sim/backends/rtl_axes_ports.hpp"
+#include "twins.hpp"
 
 namespace feltgate::test {
 
@@ -27,13 +28,13 @@ namespace feltgate::test {
 using Design = std::conditional_t<ENGINE != 0, PantographLaw, LeverLaw>;
 constexpr int kAxes = AXES;
 constexpr bool kEngine = ENGINE != 0;
-using AxesTwin = FeltgateAxes<Design, kAxes, true, kEngine>;
+using AxesTwin = test::AxesOf<Design, kAxes, true, kEngine>;
 
 struct AxesAdapter {
   static constexpr int kTorque = Design::f.torque.width();
 
   static void drive(Vfeltgate_axes& rtl, const AxesIn<kAxes>& in) {
-    drive_axes<Design>(rtl, in);
+    drive_axes<kAxes>(rtl, in);
     for (int n = 0; n < kAxes; ++n) {
       const auto& axis = in.axis[static_cast<std::size_t>(n)];
       set_bits(rtl.law_torque_i, kTorque * n, kTorque, static_cast<std::uint64_t>(axis.law_torque));

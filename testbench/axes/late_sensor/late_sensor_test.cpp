@@ -15,6 +15,7 @@
 #include "feltgate/generated/lever_absolute.hpp"
 #include "feltgate/generated/lever_current.hpp"
 #include "sim/backends/absolute_sensor.hpp"
+#include "twins.hpp"
 
 using feltgate::AbsoluteSensor;
 using Defect = AbsoluteSensor::Defect;
@@ -79,9 +80,9 @@ class Device {
     ++now_;
   }
 
-  feltgate::FeltgateAxes<D, Axes, true, Engine> twin_;
+  feltgate::test::AxesOf<D, Axes, true, Engine> twin_;
   feltgate::AxesIn<Axes> in_;
-  std::vector<AbsoluteSensor> sensors_{N, AbsoluteSensor{feltgate::absolute_parameters<D>()}};
+  std::vector<AbsoluteSensor> sensors_{N, AbsoluteSensor{feltgate::test::absolute_parameters<D>()}};
   std::int64_t now_ = 0;
   bool host_, opened_ = false;
 };

@@ -96,8 +96,7 @@ void Bench::report(Outcome* outcome) const {
 }
 
 void use_wide_design() {
-  add_design({"wide", make_design_backend<Vextremes_wide, Wide>, make_design_chain<Wide>,
-              design_info<Wide>});
+  add_rtl(Wide::name, Wide::design_crc, make_rtl<Vextremes_wide>);
 }
 
 plant::Parameters shipped_plant(const Settings& settings, const std::string& name) {

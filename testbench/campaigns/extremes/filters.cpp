@@ -242,7 +242,7 @@ Outcome slow_pole(const Settings&) {
 Outcome coefficient_zero(const Settings&) {
   Outcome o;
   Bench b("paper", Cores::lock_step);
-  for (int i = 0; i < b.design().parameter_count; ++i) {
+  for (std::size_t i = 0; i < b.design().parameters.size(); ++i) {
     const ParameterInfo& p = b.design().parameters[i];
     // Only the coefficients change; limits and scene geometry stay.
     if (std::string(p.unit).find('/') == std::string::npos && std::string(p.unit) != "1") continue;
@@ -276,7 +276,7 @@ Outcome coefficient_max(const Settings&) {
   Outcome o;
   Bench b("paper", Cores::lock_step);
   double a1_max = 0;
-  for (int i = 0; i < b.design().parameter_count; ++i) {
+  for (std::size_t i = 0; i < b.design().parameters.size(); ++i) {
     const ParameterInfo& p = b.design().parameters[i];
     const int mantissa = p.format.width() - p.format.sign;
     if (mantissa != 17 || p.address >= 64) continue;  // a coefficient

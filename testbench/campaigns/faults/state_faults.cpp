@@ -23,6 +23,7 @@
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
 #include "sim/backends/rtl_ports.hpp"
+#include "twins.hpp"
 
 void Vfaults___024root___eval_settle(Vfaults___024root* vlSelf);
 
@@ -86,7 +87,7 @@ class RtlState {
 
   void drive(const CoreIn& in) {
     in_ = in;
-    drive_inputs<D>(*rtl_, in);
+    drive_inputs(*rtl_, feltgate::test::port_bits<D>(), in);
   }
   /// One clock with the inputs that were driven.
   void clock() {
@@ -101,7 +102,7 @@ class RtlState {
     return static_cast<unsigned>(rtl_->gate_a_hi_o | rtl_->gate_a_lo_o << 1 |
                                  rtl_->gate_b_hi_o << 2 | rtl_->gate_b_lo_o << 3);
   }
-  CoreOut out() const { return read_outputs<D>(*rtl_); }
+  CoreOut out() const { return read_outputs(*rtl_, feltgate::test::port_bits<D>()); }
 
  private:
   unsigned char& byte_of(const Flop& f) {
@@ -393,7 +394,7 @@ class Branches {
   TorqueJudge::Motor motor_;
   Limits limits_;
   RtlState golden_, faulty_, sound_;
-  FeltgateCore<D> twin_;
+  test::CoreOf<D> twin_;
   Loop loop_;
   CoreIn in_;
   std::vector<StateBit> bits_;

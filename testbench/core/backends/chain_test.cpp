@@ -17,6 +17,7 @@
 #include "mismatch.hpp"
 #include "sim/backends/backend.hpp"
 #include "sim/reference/chain.hpp"
+#include "twins.hpp"
 
 namespace {
 
@@ -93,7 +94,7 @@ class Beside {
   }
 
   test::CoreStimulus<D> stimulus_;
-  FeltgateCore<D> core_;
+  test::CoreOf<D> core_;
   std::unique_ptr<RealChain> chain_;
   Write waiting_;
   HostBeside host_;
@@ -193,8 +194,8 @@ class Direct {
   }
 
  private:
-  static ChainDesign built() {
-    ChainDesign design = ChainDesign::of<Lever>();
+  static DesignInfo built() {
+    DesignInfo design = design_info<Lever>();
     design.data.constants["SCENE_MASK"] |= 1 << S::law;
     return design;
   }

@@ -15,11 +15,12 @@
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
+#include "twins.hpp"
 
 namespace feltgate {
 namespace {
 
-using Rtl = RtlCore<Vfeltgate_core, Lever>;
+using Rtl = RtlCore<Vfeltgate_core>;
 constexpr Clock clocks = 400'000;
 constexpr std::uint64_t seed = 7;
 
@@ -51,8 +52,8 @@ struct Found {
 
 /// Clock by clock, with the writes in the clocks in which an engine issues them.
 Found clock_by_clock(const std::vector<EncoderEvent>& events) {
-  const auto rtl = std::make_unique<Rtl>();
-  const auto twin = std::make_unique<FeltgateCore<Lever>>();
+  const auto rtl = std::make_unique<Rtl>(design_of<Lever>());
+  const auto twin = std::make_unique<test::CoreOf<Lever>>();
   rtl->power_up(seed, {});
   CoreIn in;
   Found found;

@@ -15,6 +15,7 @@
 #include "feltgate/generated/paper.hpp"
 #include "random.hpp"
 #include "sim/backends/make_device.hpp"
+#include "twins.hpp"
 
 using namespace feltgate;
 using feltgate::test::Random;
@@ -48,8 +49,8 @@ void set_up(Device& d) {
 
 template <class D>
 void check_against_the_core() {
-  TwinDevice<D> d;
-  FeltgateCore<D> core;
+  test::TwinDeviceOf<D> d;
+  test::CoreOf<D> core;
   set_up(d);
   Random random(7);
   EncoderPins pins;
@@ -90,7 +91,7 @@ TEST_CASE("every clock of a device is the core's") {
 }
 
 TEST_CASE("what an armed core drops is refused or waits, and arming for it") {
-  TwinDevice<Lever> d;
+  test::TwinDeviceOf<Lever> d;
   const auto at = [&](int ticks) {
     for (int k = 0; k < ticks; ++k) d.tick({});
   };
@@ -113,7 +114,7 @@ TEST_CASE("what an armed core drops is refused or waits, and arming for it") {
 }
 
 TEST_CASE("a tick at a time is clock by clock") {
-  TwinDevice<Lever> ticks, clocks;
+  test::TwinDeviceOf<Lever> ticks, clocks;
   set_up(ticks);
   set_up(clocks);
   Random random(11);
@@ -147,7 +148,7 @@ TEST_CASE("a lever that is moved by angles meets the wall") {
 }
 
 TEST_CASE("arming knows nothing of edges") {
-  TwinDevice<Lever> d;
+  test::TwinDeviceOf<Lever> d;
   d.arm();  // before the first clock: high from the start would never arm
   for (int k = 0; k < 3; ++k) d.tick({});
   CHECK(d.armed());
@@ -198,7 +199,7 @@ TEST_CASE("parameters go by name, in their units") {
 }
 
 TEST_CASE("every scene that a design builds can be chosen") {
-  TwinDevice<Lever> d;
+  test::TwinDeviceOf<Lever> d;
   unsigned chosen = 2;  // bit 1: the scene that the map leaves out
   for (const std::string& scene : d.design().scenes) {
     d.select(scene);

@@ -22,6 +22,7 @@
 #include "sim/plant/hand.hpp"
 #include "sim/plant/plant.hpp"
 #include "sim/plant/plant_file.hpp"
+#include "twins.hpp"
 
 // The core's twin closed over motor, lever and hand, with an encoder whose channels may fail.
 
@@ -108,7 +109,7 @@ template <class D>
 Pressed press(const plant::Parameters& parameters, const Press& what) {
   const DesignInfo info = design_info<D>();
   plant::Plant lever(parameters, parameters.effects, plant::drive_of(info), what.hand);
-  FeltgateCore<D, false> core;
+  test::CoreOf<D, false> core;
   CoreIn in;
   constexpr Clock kStep = 25;
   in.encoder = lever.encoder().pins();

@@ -14,6 +14,7 @@
 #include "core_life.hpp"
 #include "figures_record.hpp"
 #include "sim/backends/absolute_sensor.hpp"
+#include "twins.hpp"
 
 using namespace feltgate::test;
 using feltgate::AbsoluteSensor;
@@ -41,7 +42,7 @@ struct Rig {
   bool reversed = false;
   std::int64_t host_at = 400;  ///< the host takes control, with the polarity
 
-  AbsoluteSensor sensor{feltgate::absolute_parameters<D>()};
+  AbsoluteSensor sensor{feltgate::test::absolute_parameters<D>()};
   CoreIn in;
 
   CoreIn operator()(std::int64_t cycle, const CoreOut& out) {

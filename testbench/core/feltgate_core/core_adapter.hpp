@@ -22,16 +22,17 @@
 #include FELTGATE_DESIGN_HEADER
 #else
 #include "feltgate/generated/paper.hpp"
+#include "twins.hpp"
 #endif
 
 namespace feltgate::test {
 
 using Design = FELTGATE_DESIGN;
-using CoreTwin = FeltgateCore<Design>;
-constexpr bool kPrograms = scene_built<Design>(Map::S::law);
+using CoreTwin = test::CoreOf<Design>;
+constexpr bool kPrograms = test::scene_built<Design>(Map::S::law);
 
 struct CoreAdapter {
-  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { drive_inputs<Design>(rtl, in); }
+  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { drive_inputs(rtl, feltgate::test::port_bits<Design>(), in); }
   static void at_edge(Vfeltgate_core& rtl) { rtl.stop_i = 0; }
   template <class Check>
   static void compare(Check& check, const Vfeltgate_core& rtl, const CoreOut& out) {

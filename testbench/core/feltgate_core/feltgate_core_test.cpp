@@ -12,6 +12,7 @@
 #include "core_stimulus.hpp"
 #include "random.hpp"
 #include "sim/backends/rtl_model.hpp"
+#include "twins.hpp"
 
 using feltgate::CoreIn;
 using D = feltgate::test::Design;
@@ -123,12 +124,12 @@ TEST_CASE("core: resets at random times, random state before them") {
 TEST_CASE("core: at power-up the gates are off, whatever the other registers hold") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const feltgate::RtlModel<Vfeltgate_core> rtl(seed);
-    REQUIRE(feltgate::read_outputs<D>(*rtl).gates == 0);
+    REQUIRE(feltgate::read_outputs(*rtl, feltgate::test::port_bits<D>()).gates == 0);
   }
 }
 
 TEST_CASE("core: sampled position to duty register in the clocks that the schedule says") {
-  if (!feltgate::scene_built<D>(D::S::spring_tension) || kLoop || !kEdges) return;
+  if (!feltgate::test::scene_built<D>(D::S::spring_tension) || kLoop || !kEdges) return;
   // The encoder makes one step against a stiff spring; wave clock 0 is the clock of the sample.
   Twin twin;
   CoreStimulus<D> host(1);

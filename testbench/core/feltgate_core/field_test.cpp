@@ -19,6 +19,7 @@
 #include "core_life.hpp"
 #include "core_stimulus.hpp"
 #include "figures_record.hpp"
+#include "twins.hpp"
 
 using namespace feltgate::test;
 using namespace feltgate::plant;
@@ -58,7 +59,7 @@ struct Rig {
 
   Parameters p;
   ThreePhasePlant plant;
-  AbsoluteSensor sensor{feltgate::absolute_parameters<D>()};
+  AbsoluteSensor sensor{feltgate::test::absolute_parameters<D>()};
   std::array<double, 2> reads{1, 1};  ///< part of its current that a modulator sees
   std::array<SigmaDelta, 2> modulators{SigmaDelta{kFullA}, SigmaDelta{kFullA}};
   CoreIn in;

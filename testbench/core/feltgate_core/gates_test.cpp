@@ -17,6 +17,7 @@
 #include FELTGATE_DESIGN_HEADER
 #else
 #include "feltgate/generated/paper.hpp"
+#include "twins.hpp"
 #endif
 
 using feltgate::CoreIn;
@@ -99,7 +100,7 @@ class Bridge {
   void drive() {
     const bool stop = rtl_->stop_i != 0;
     driven_ = in_;
-    feltgate::drive_inputs<D>(*rtl_, driven_);
+    feltgate::drive_inputs(*rtl_, feltgate::test::port_bits<D>(), driven_);
     rtl_->stop_i = stop;
   }
   void rise() {
@@ -109,14 +110,14 @@ class Bridge {
     in.stop = seen_;
     twin_.clock(in);
     seen_ = stop;
-    const feltgate::CoreOut rtl = feltgate::read_outputs<D>(*rtl_);
+    const feltgate::CoreOut rtl = feltgate::read_outputs(*rtl_, feltgate::test::port_bits<D>());
     if (!(rtl == twin_.out())) {
       FAIL("RTL and twin differ in " << feltgate::difference(rtl, twin_.out()));
     }
   }
 
   feltgate::RtlModel<Vfeltgate_core> rtl_;
-  feltgate::FeltgateCore<D> twin_;
+  feltgate::test::CoreOf<D> twin_;
   CoreIn in_, driven_;  ///< inputs wanted, and inputs at the pins since the clock fell
   int phase_ = 0;
   bool seen_ = false, held_ = false;

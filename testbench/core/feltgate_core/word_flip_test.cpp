@@ -14,6 +14,7 @@
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
 #include "sim/backends/rtl_ports.hpp"
+#include "twins.hpp"
 
 using feltgate::CoreIn;
 using feltgate::CoreOut;
@@ -43,10 +44,10 @@ class Pair {
 
   void clocks(std::int64_t n) {
     for (; n > 0; --n) {
-      feltgate::drive_inputs<D>(*rtl_, in);
+      feltgate::drive_inputs(*rtl_, feltgate::test::port_bits<D>(), in);
       edge();
       twin_.clock(in);
-      if (!(feltgate::read_outputs<D>(*rtl_) == twin_.out())) ++mismatches_;
+      if (!(feltgate::read_outputs(*rtl_, feltgate::test::port_bits<D>()) == twin_.out())) ++mismatches_;
     }
   }
   void to_next_tick() { clocks(kTick - twin_.clock_of_tick()); }
@@ -75,7 +76,7 @@ class Pair {
   void flip_velocity(int bit) {
     FELTGATE_AXIS(u_velocity_estimator__DOT__velocity_o) ^= IData{1} << bit;
   }
-  CoreOut rtl() const { return feltgate::read_outputs<D>(*rtl_); }
+  CoreOut rtl() const { return feltgate::read_outputs(*rtl_, feltgate::test::port_bits<D>()); }
   /// Arms in `scene`.
   void arm(int scene) {
     in.scene = static_cast<std::uint8_t>(scene);
@@ -102,7 +103,7 @@ class Pair {
   }
 
   std::unique_ptr<Vcore_open> rtl_ = std::make_unique<Vcore_open>();
-  feltgate::FeltgateCore<D> twin_;
+  feltgate::test::CoreOf<D> twin_;
   int mismatches_ = 0;
 };
 

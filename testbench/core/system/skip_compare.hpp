@@ -16,6 +16,7 @@
 #include "mismatch.hpp"
 #include "random.hpp"
 #include "sim/backends/fnv1a.hpp"
+#include "twins.hpp"
 
 namespace feltgate::test {
 
@@ -63,8 +64,8 @@ struct Hash : Fnv1a {
 
 /// The I2t sum, by what budgets it trips in a copy, which goes on clock by clock: no output shows
 /// it.
-template <class Core, class D>
-std::uint32_t heat_of(Core core) {
+template <class D>
+std::uint32_t heat_of(FeltgateCore core) {
   const auto write = [&core](int address, std::uint32_t word) {
     CoreIn in;
     while (core.out().reg_busy) core.clock(in);
@@ -103,7 +104,7 @@ template <class D, bool ReadBack = true, class Stimulus>
 void compare_by_event(Stimulus stimulus, std::uint64_t seed, std::int64_t clocks,
                       std::uint32_t longest, Met* met = nullptr) {
   Random cut(seed);
-  FeltgateCore<D, ReadBack> by_clock, by_event;
+  test::CoreOf<D, ReadBack> by_clock, by_event;
   Hash clock_hash, event_hash;
   const bool words = ReadBack && seed % 2 == 1;
   std::int64_t done = 0, stretches = 0;
@@ -189,8 +190,7 @@ void compare_by_event(Stimulus stimulus, std::uint64_t seed, std::int64_t clocks
     }
   }
   CHECK(stretches > 100);
-  CHECK(heat_of<FeltgateCore<D, ReadBack>, D>(by_clock) ==
-        heat_of<FeltgateCore<D, ReadBack>, D>(by_event));
+  CHECK(heat_of<D>(by_clock) == heat_of<D>(by_event));
 }
 
 }  // namespace feltgate::test

@@ -25,6 +25,7 @@
 #include "sim/plant/plant_file.hpp"
 #include "sim/systemc/motor_module.hpp"
 #include "sim/systemc/twin_module.hpp"
+#include "twins.hpp"
 
 using namespace feltgate;
 
@@ -97,7 +98,7 @@ class Watch : public sc_core::sc_module {
 std::int32_t direct_count(std::int64_t clocks) {
   const plant::Parameters p = motor();
   plant::Plant plant(p, p.effects, plant::drive_of(design_info<Lever>()), hand());
-  FeltgateCore<Lever> core;
+  test::CoreOf<Lever> core;
   CoreIn in;
   in.encoder = plant.encoder().pins();
   double on[4] = {};
@@ -218,8 +219,8 @@ class Beside : public sc_core::sc_module {
   systemc::TwinModule<D> twin{"twin"};
 
  private:
-  FeltgateCore<D> core_;
-  AbsoluteSensor sensor_{absolute_parameters<GimbalCurrent>()};
+  test::CoreOf<D> core_;
+  AbsoluteSensor sensor_{test::absolute_parameters<GimbalCurrent>()};
   std::uint64_t bits_ = 1;
 };
 

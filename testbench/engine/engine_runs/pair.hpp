@@ -24,7 +24,7 @@ using H = EngineMap::H;
 template <int N>
 class Pair {
  public:
-  using Runs = law::EngineRuns<N, 21>;
+  using Runs = law::EngineRuns<N>;
   using In = typename Runs::In;
   using Out = typename Runs::Out;
   using Axes = typename Runs::Axes;
@@ -35,7 +35,7 @@ class Pair {
       measured + timing.known_for;  ///< a tick's watch is looked at after it
 
   explicit Pair(std::uint64_t seed, unsigned max_age = 4000)
-      : by_clock(max_age, timing), by_event(max_age, timing), random_(seed), next_(draw()) {}
+      : by_clock(max_age, 21, timing), by_event(max_age, 21, timing), random_(seed), next_(draw()) {}
 
   Runs by_clock, by_event;
   In in;  ///< of a host; what the axes show is added

@@ -26,6 +26,7 @@
 #include "host/law_engine.hpp"
 #include "host/transport.hpp"
 #include "law/compile.hpp"
+#include "twins.hpp"
 
 namespace feltgate::test {
 
@@ -71,8 +72,8 @@ class BoardInProcess : public host::Transport {
     run(std::int64_t{4} * D::clocks_per_tick);
   }
 
-  LinkedCore<D, N> board{LinkedOptions{3'000'000, true, 0}};
-  typename LinkedCore<D, N>::In in;
+  test::LinkedOf<D, N> board{LinkedOptions{3'000'000, true, 0}};
+  typename test::LinkedOf<D, N>::In in;
   std::int64_t now = 0;    ///< clocks since power-up
   std::int64_t left = -1;  ///< bytes until the wire is cut; -1: not cut
   double lost = 0;         ///< share of bytes to the board that are lost

@@ -46,6 +46,7 @@
 #include "feltgate/generated/hall_motor.hpp"
 #else
 #include "feltgate/generated/lever.hpp"
+#include "twins.hpp"
 #endif
 
 namespace feltgate::test {
@@ -77,11 +78,11 @@ constexpr int kAxisCount = 1;
 constexpr int kTick = D::clocks_per_tick;
 constexpr std::uint32_t kStride = axes_stride;
 
-class FeltgateLinked : public LinkedCore<D, kAxisCount> {
+class FeltgateLinked : public test::LinkedOf<D, kAxisCount> {
  public:
-  using In = typename LinkedCore<D, kAxisCount>::In;
-  using Out = typename LinkedCore<D, kAxisCount>::Out;
-  FeltgateLinked() : LinkedCore<D, kAxisCount>(LinkedOptions{BAUD, false, 0}) {}
+  using In = typename test::LinkedOf<D, kAxisCount>::In;
+  using Out = typename test::LinkedOf<D, kAxisCount>::Out;
+  FeltgateLinked() : test::LinkedOf<D, kAxisCount>(LinkedOptions{BAUD, false, 0}) {}
 };
 using Twin = FeltgateLinked;
 using In = Twin::In;
@@ -143,7 +144,7 @@ struct LinkedAdapter {
     check("gate_b_lo", rtl.gate_b_lo_o, (out.core.gates >> 3) & 1u);
     check("gate_c_hi", get_gate_c_hi_o(rtl, 0), (out.core.gates >> 4) & 1u);
     check("gate_c_lo", get_gate_c_lo_o(rtl, 0), (out.core.gates >> 5) & 1u);
-    check("serial", serial_lines<D>(rtl), out.core.serial);
+    check("serial", serial_lines(rtl, feltgate::test::port_bits<D>()), out.core.serial);
     check("current_clock", get_current_clock_o(rtl, 0), out.core.current_clock);
     check("heartbeat", get_heartbeat_o(rtl, 0), out.core.heartbeat);
     check("position", static_cast<std::int32_t>(rtl.position_o), out.core.position);

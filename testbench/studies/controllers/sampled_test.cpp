@@ -16,6 +16,7 @@
 #include "feltgate/generated/lever_absolute.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/reference/chain.hpp"
+#include "twins.hpp"
 
 using namespace feltgate;
 
@@ -50,7 +51,7 @@ template <class D>
 std::vector<std::int16_t> read_by(const Motion& motion) {
   constexpr int sample = axis::TickCounter::sample_clock;
   axis::Absolute position(axis::Design::of<D>());
-  AbsoluteSensor sensor(absolute_parameters<D>());
+  AbsoluteSensor sensor(test::absolute_parameters<D>());
   std::vector<std::int16_t> out;
   Clock now = 0;
   for (int k = 0; k < motion.ticks(); ++k) {
@@ -88,7 +89,7 @@ struct Errors {
 template <class D>
 Errors errors_of(const std::vector<std::int16_t>& travel, const Motion& motion) {
   const double gain = std::ldexp(D::m1 * kTick_s / kCount_rad, D::velocity_shift);
-  ChainDesign design = ChainDesign::of<D>();
+  DesignInfo design = design_info<D>();
   design.data.constants["M1"] = D::m1;
   design.data.constants["VELOCITY_SHIFT"] = D::velocity_shift;
   Chain<axis::Fixed> chain("N", design);
@@ -166,9 +167,9 @@ TEST_CASE("sampled velocity: an absolute encoder's, with closed forms") {
   const auto age_s = [](const AbsoluteEncoder::Parameters& p, double held_ticks) {
     return (std::ceil(p.reading_clocks() / 50.0) + (held_ticks - 1) / 2) * kTick_s;
   };
-  const double of_ssi = age_s(absolute_parameters<BySsi>(), kPeriod_ticks);
+  const double of_ssi = age_s(test::absolute_parameters<BySsi>(), kPeriod_ticks);
   // One reading in 16 is held twice as long.
-  const double of_spi = age_s(absolute_parameters<LeverAbsolute>(), kPeriod_ticks * 18.0 / 16);
+  const double of_spi = age_s(test::absolute_parameters<LeverAbsolute>(), kPeriod_ticks * 18.0 / 16);
   check(LeverAbsolute{}, spi, of_spi, true);
   const auto four = check(ByWindow<BySsi, 384, 0>{}, ssi, of_ssi, false);
   check(ByWindow<BySsi, 96, 2>{}, ssi, of_ssi, false);

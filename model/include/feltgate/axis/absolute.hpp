@@ -94,13 +94,3 @@ class Absolute {
 };
 
 }  // namespace feltgate::axis
-
-namespace feltgate {
-
-/// Of the sensor of design D.
-template <class D>
-AbsoluteEncoder::Parameters absolute_parameters() {
-  return axis::Absolute::parameters(axis::Design::of<D>());
-}
-
-}  // namespace feltgate

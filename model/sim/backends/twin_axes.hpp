@@ -16,14 +16,11 @@
 
 namespace feltgate {
 
-/// The twin of design D. A derived class may run RTL beside it, through the virtual members.
-template <class D>
+/// The twin of N axes with an engine. A derived class may run RTL beside it, through the virtual members.
+template <int N>
 class TwinAxes : public AxesCores {
  public:
-  static constexpr int N = D::axes;
-  static_assert(N >= 2 && D::engine != 0, "several axes with an engine");
-
-  TwinAxes() : AxesCores(design_info<D>(), N) {}
+  explicit TwinAxes(const DesignInfo& design) : AxesCores(design, N) {}
 
   const char* name() const override { return beside() ? "lockstep" : "twin"; }
 
@@ -32,7 +29,7 @@ class TwinAxes : public AxesCores {
     now_ = mismatches_ = 0;
     first_mismatch_.clear();
     in_ = {};
-    twin_ = std::make_unique<Twin>();
+    twin_ = std::make_unique<Twin>(info_.data);
     for (std::size_t n = 0; n < N; ++n) {
       events_[n].reset(pins[n]);
       in_.axis[n].encoder = pins[n];
@@ -53,7 +50,7 @@ class TwinAxes : public AxesCores {
       if (!writes_.empty()) {
         const int ahead = host_write_clock - twin_->clock_of_tick();
         writes = ahead == 0 && !twin_->glue().busy() && !twin_->out().reg_busy;
-        until = std::min(until, now_ + (ahead == 0 ? 1 : ahead > 0 ? ahead : ahead + tick));
+        until = std::min(until, now_ + (ahead == 0 ? 1 : ahead > 0 ? ahead : ahead + info_.clocks_per_tick));
       }
       if (writes) issue_write();
       run(until - now_);
@@ -67,8 +64,7 @@ class TwinAxes : public AxesCores {
   }
 
  protected:
-  using Twin = FeltgateAxes<D, N, true, true>;
-  static constexpr int tick = D::clocks_per_tick;
+  using Twin = FeltgateAxes<N, true>;
 
   /// Called after the twin's reset.
   virtual void reset_beside(std::uint64_t /*seed*/) {}
@@ -127,14 +123,5 @@ class TwinAxes : public AxesCores {
 
   std::int64_t engine_writes_ = 0;
 };
-
-/// For a program that does not use the RTL.
-template <class D>
-std::unique_ptr<AxesCores> make_twin_axes(const std::string& kind) {
-  if (kind == "twin") return std::make_unique<TwinAxes<D>>();
-  throw std::invalid_argument("engine \"" + kind + "\" of " + design_info<D>().name +
-                              " is not in this program; choose twin, or start ./feltgate with this "
-                              "scene alone");
-}
 
 }  // namespace feltgate

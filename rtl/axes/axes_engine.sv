@@ -52,7 +52,7 @@ module axes_engine #(
 );
   logic law_any, law_any_q, all_ask, armed, armed_q, fresh, late, changed;
   logic engine_addressed, engine_busy;
-  logic check, checks_q, check_of_these_q, checked_q, crc_done, crc_good;
+  logic check, checks_q, check_of_these_q, checked_q, taken_checked_q, crc_done, crc_good;
   logic [31:0] engine_word;
   assign law_any = |law_i;
   assign all_ask = &arm_request_i;
@@ -60,25 +60,28 @@ module axes_engine #(
   localparam logic [15:0] First = 16'(feltgate_engine_pkg::PORT_FIRST);
   assign engine_addressed = reg_addr_i[15:12] == First[15:12];
 
-  // Arming waits until the CRC of the programs is computed: unchecked_o acts like an axis that does
-  // not request arming, unfit_o then like one that is not ready. Evaluated once per tick, because a
-  // request may come from a pin.
+  // Arming waits until the CRC of the programs is computed and the axes have taken late_o, which says
+  // whether it fits: unchecked_o acts like an axis that does not request arming, unfit_o then like one
+  // that is not ready. Evaluated once per tick, because a request may come from a pin.
   assign check       = last_i && all_ask && !checked_q && !checks_q;
-  assign unchecked_o = !checked_q;
+  assign unchecked_o = !taken_checked_q;
   assign unfit_o     = law_any && checked_q && !crc_good;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       checks_q         <= 1'b0;
       check_of_these_q <= 1'b0;
       checked_q        <= 1'b0;
+      taken_checked_q  <= 1'b0;
     end else begin
       checks_q <= check || (checks_q && !crc_done);
       if (last_i && !all_ask) begin
         check_of_these_q <= 1'b0;
         checked_q        <= 1'b0;
+        taken_checked_q  <= 1'b0;
       end else begin
         if (check) check_of_these_q <= 1'b1;
         if (crc_done && check_of_these_q) checked_q <= 1'b1;
+        if (checked_q && sample_i) taken_checked_q <= 1'b1;
       end
     end
   end

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A motor with a lever behind the core's twin, wired right or wrong. Documentation:
-// docs/blocks/supervisor.md
+// docs/blocks/safety.md
 #pragma once
 
 #include <cmath>

@@ -3,7 +3,7 @@
 //
 // The check for a wrong polarity in simulation: it must trip with swapped motors and encoders, and
 // must not trip with scenes, recordings, fast dampers, end stops and hands: the figures of
-// docs/blocks/supervisor.md. Scenes and recordings are hidden test cases, so that a usual run does
+// docs/blocks/safety.md. Scenes and recordings are hidden test cases, so that a usual run does
 // not report them as tried.
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "catch.hpp"
@@ -36,13 +35,14 @@ using plant::Segment;
 template <class D>
 class Watcher {
  public:
+  Watcher() {
+    const axis::WordFormats formats(design_of<D>());
+    for (const axis::Word& w : design_of<D>().words) formats.load(words_, w.address, w.reset);
+  }
   void tick(std::int64_t velocity, std::int64_t current_ref, bool live) {
-    const auto v = static_cast<std::int32_t>(velocity);
-    const auto i = static_cast<std::int32_t>(before_);
-    law_.compare_growth(law_.gain(v), v, growth_);
-    law_.compare_current(i, current_);
-    law_.turn(v, i, ticks_, live);
-    if (law_.due() && tripped_ < 0) tripped_ = ticks_seen_;
+    const auto judged = law_.tick(state_, words_, live, velocity, before_);
+    state_ = judged.next;
+    if (judged.trip && tripped_ < 0) tripped_ = ticks_seen_;
     before_ = current_ref;
     ++ticks_seen_;
   }
@@ -54,16 +54,9 @@ class Watcher {
   std::int64_t tripped() const { return tripped_; }
 
  private:
-  static std::uint32_t word(const char* name) {
-    for (const auto& p : D::parameters) {
-      if (std::string_view(p.name) == name) return static_cast<std::uint32_t>(p.raw);
-    }
-    return 0;
-  }
-
-  Runaway<D> law_;
-  const std::uint32_t growth_ = word("polarity_speed"), current_ = word("polarity_current");
-  const std::uint32_t ticks_ = word("polarity_ticks");
+  axis::Polarity<axis::Fixed> law_{design_of<D>()};
+  axis::Polarity<axis::Fixed>::State state_;
+  axis::Words<std::int64_t> words_;
   std::int64_t tripped_ = -1, before_ = 0, ticks_seen_ = 0;
 };
 

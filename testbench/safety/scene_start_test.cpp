@@ -3,7 +3,7 @@
 //
 // A shipped scene with the self-test on: the expectations of the scene still hold.
 // FELTGATE_SCENE names it. RTL and twin are in lock-step in `wall`, and with FELTGATE_WHOLE in
-// all. Documentation: docs/blocks/supervisor.md
+// all. Documentation: docs/blocks/safety.md
 #include <algorithm>
 #include <cstdlib>
 #include <string>

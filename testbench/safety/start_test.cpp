@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The self-test on motors in simulation: free levers at random, wired right and wrong; levers that
-// are held, pushed or moving. Documentation: docs/blocks/supervisor.md
+// are held, pushed or moving. Documentation: docs/blocks/safety.md
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -94,7 +94,7 @@ class AxesEngine {
     for (const auto& core : cores) law |= in_law(core);
     for (std::size_t n = 0; n < N; ++n) {
       each[n].law_restart = may_jump();
-      each[n].axis_silent |= !state_.checked;
+      each[n].axis_silent |= !state_.taken_checked;
       each[n].axis_blocked |= law && state_.checked && !out_.crc_good;
     }
   }
@@ -150,8 +150,9 @@ class AxesEngine {
     s.rdata = addressed ? before.rdata : 0;
     s.rdata_known = !addressed || before.rdata_known;
     if (last && !all_ask) {
-      s.check_of_these = s.checked = false;
+      s.check_of_these = s.checked = s.taken_checked = false;
     } else {
+      if (s.checked && cores[0].samples()) s.taken_checked = true;
       if (out_.crc_done && s.check_of_these) s.checked = true;
       if (check) s.check_of_these = true;
     }
@@ -184,7 +185,7 @@ class AxesEngine {
       armed |= cores[n].out().armed;
       all_ask &= cores[n].arm_request(each[n]);
     }
-    const bool settled = all_ask ? s.checked : !s.checked && !s.check_of_these;
+    const bool settled = all_ask ? s.taken_checked : !s.checked && !s.check_of_these;
     if (law != s.law || (armed && !s.armed) || !settled) return false;
     s.armed = armed;
     s.rdata = 0;
@@ -234,6 +235,7 @@ class AxesEngine {
   struct State {
     bool law = false, armed = false;
     bool checks = false, check_of_these = false, checked = false;
+    bool taken_checked = false;  ///< the axes have taken the torques of checked programs
     int runs = 0;  ///< runs that must end before the torque includes the change
     bool sampled = true;
     std::uint32_t rdata = 0;

@@ -56,7 +56,7 @@ class Scripts(Bench):
         self.assertFalse(self.path("out").exists(), "an empty folder stayed")
 
     def test_prove(self):
-        self.ends("prove", "mult", "--jobs", "2")
+        self.ends("prove", "pwm", "--jobs", "2")
 
     def test_what_fails_ends_the_others(self):
         both, done, began = crew.Crew(), [], time.monotonic()

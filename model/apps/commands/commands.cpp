@@ -17,7 +17,7 @@
 #include <stdexcept>
 
 #include "design/design.hpp"
-#include "design/generate.hpp"
+#include "design/info.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/program.hpp"
 #include "sim/backends/axes_cores.hpp"

@@ -130,9 +130,7 @@ class FeltgateCore {
   /// Between two ticks of the last one's.
   std::uint32_t word(int slot) const {
     if (!out_.snapshot_valid) return axis_.word(slot);
-    return at_axis(CoreIn{}, [&](const auto& to_axis) {
-      return axis::Snapshot::at(slot, axis_.out(to_axis).snapshot);
-    });
+    return axis::Snapshot::at(slot, axis_out(CoreIn{}).snapshot);
   }
   /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo, c_hi, c_lo.
   GateCounts gate_clocks() const { return whole_ ? h_bridge().gate_clocks() : gate_clocks_; }
@@ -169,7 +167,8 @@ class FeltgateCore {
   const axis::Axis& axis() const { return axis_; }
   /// For comparisons: every output of the axis with these inputs.
   axis::Axis::Out axis_out(const CoreIn& in) const {
-    return at_axis(in, [this](const auto& to_axis) { return axis_.out(to_axis); });
+    return at_axis<axis::Axis::Out>(
+        in, [this](const axis::Axis::In& to_axis) { return axis_.out(to_axis); });
   }
   int clocks_per_tick() const { return clocks_per_tick_; }
   /// Ticks that run() took as a whole, and those in which something happened.
@@ -204,17 +203,18 @@ class FeltgateCore {
     if (whole_) return f(quadrature(), h_bridge());
     std::visit(f, encoder_, bridge_);
   }
-  template <class F>
-  auto at_axis(const CoreIn& in, F&& f) const {
+  template <class Result, class F>
+  Result at_axis(const CoreIn& in, F&& f) const {
     return std::visit(
-        [&](const auto& encoder, const auto& bridge) {
+        [&](const auto& encoder, const auto& bridge) -> Result {
           return f(axis::Axis::In{encoder.out(), bridge.out(), in});
         },
         encoder_, bridge_);
   }
   axis::Safe safe(const CoreIn& in) const {
     if (whole_) return axis_.safe({quadrature().out(), h_bridge().out(), in});
-    return at_axis(in, [this](const auto& to_axis) { return axis_.safe(to_axis); });
+    return at_axis<axis::Safe>(
+        in, [this](const axis::Axis::In& to_axis) { return axis_.safe(to_axis); });
   }
 
   template <class Encoder, class Bridge>

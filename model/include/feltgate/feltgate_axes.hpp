@@ -35,9 +35,10 @@ class FeltgateAxes {
     show({});
   }
 
-  /// The parameter RAMs keep their words, as in the RTL.
-  void reset() {
-    for (Core& core : cores_) core.reset();
+  /// A clock with the reset. The parameter RAMs keep their words, as in the RTL.
+  void reset(const In& in = {}) {
+    const std::array<CoreIn, N> each = inputs(in);
+    for (std::size_t n = 0; n < N; ++n) cores_[n].reset(each[n]);
     glue_.reset();
     taken_ = {};
     duties_ = 0;

@@ -172,11 +172,10 @@ TEST_CASE("axes: as made they show what their cores do, and measure once in a ti
   CHECK(measured == ticks);
 }
 
-TEST_CASE("axes: without an engine a watcher is told of ticks, not of events") {
+TEST_CASE("axes: without an engine a watcher is told of no events") {
   struct Watcher {
-    int events = 0, ticks = 0;
+    int events = 0;
     void event(std::int64_t, int) { ++events; }
-    void words() { ++ticks; }
   };
   test::AxesOf<D, kCores> axes;
   Watcher watcher;
@@ -186,7 +185,6 @@ TEST_CASE("axes: without an engine a watcher is told of ticks, not of events") {
         {}, 7 * (k % 3) + D::clocks_per_tick * (k % 2), [&] { ++snapshots; }, watcher);
   }
   CHECK(snapshots > 20);
-  CHECK(watcher.ticks == snapshots);
   CHECK(watcher.events == 0);
   CHECK_FALSE(axes.glue().event_valid());
   CHECK(axes.glue().event_number() == 0);

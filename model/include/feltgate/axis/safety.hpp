@@ -18,7 +18,7 @@ namespace feltgate::axis {
 
 /// Numbers of the causes.
 namespace fault {
-enum : unsigned {
+enum Number : unsigned {
   encoder = 1,
   speed,
   polarity,

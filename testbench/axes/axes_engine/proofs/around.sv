@@ -67,6 +67,7 @@ module around_proof (
   (* hierconn *) wire \u_dut.u_engine.busy_o ;
   (* hierconn *) wire \u_dut.checks_q ;
   (* hierconn *) wire \u_dut.check_of_these_q ;
+  (* hierconn *) wire \u_dut.checked_q ;
   (* hierconn *) wire \u_dut.law_any_q ;
   (* hierconn *) wire \u_dut.armed_q ;
   (* hierconn *) wire [1:0] \u_dut.runs_q ;
@@ -77,7 +78,7 @@ module around_proof (
   wire fresh = \u_dut.u_engine.fresh_o ;
 
   // The computation that runs, and whether one began and ended since the end of a tick at which an axis did not ask.
-  logic runs_q, begun_q, checked_q, withdrawn;
+  logic runs_q, begun_q, checked_q, told_q, withdrawn;  // told: since then the axes have taken late_o
   assign withdrawn = last_i && arm_request_i != 2'b11;
   // What makes the torque jump, the runs that ended since, and whether their torque was taken.
   logic in_law_q, was_armed_q, jumps, open_q;
@@ -88,7 +89,7 @@ module around_proof (
   assign ours = addr_i[15:12] == 4'(feltgate_engine_pkg::PORT_FIRST >> 12);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {runs_q, begun_q, checked_q, in_law_q, was_armed_q, open_q, after_q} <= '0;
+      {runs_q, begun_q, checked_q, told_q, in_law_q, was_armed_q, open_q, after_q} <= '0;
       ended_q <= 2'd0;
     end else begin
       after_q <= 1'b1;
@@ -96,7 +97,8 @@ module around_proof (
       if (starts) runs_q <= 1'b1;
       if (starts) begun_q <= 1'b1;
       if (done && begun_q) checked_q <= 1'b1;
-      if (withdrawn) {begun_q, checked_q} <= 2'b00;
+      if (checked_q && sample_i) told_q <= 1'b1;
+      if (withdrawn) {begun_q, checked_q, told_q} <= 3'b000;
       in_law_q    <= law_i != '0;
       was_armed_q <= armed_i != '0;
       if (jumps) begin
@@ -112,9 +114,9 @@ module around_proof (
 
   always_comb begin
     if (past_ok_q && rst_ni) begin
-      checked_since_asked: assert (unchecked || checked_q);
+      checked_since_asked: assert (unchecked || (checked_q && told_q));
       every_request_is_checked: assert (starts == (last_i && arm_request_i == 2'b11 && !checked_q && !runs_q));
-      unfit_in_laws: assert (unfit == (law_i != '0 && !unchecked && !good));
+      unfit_in_laws: assert (unfit == (law_i != '0 && checked_q && !good));
       no_torque_unchecked: assert (late == (\u_dut.u_engine.late_o || !good));
       locked_while_it_counts: assert (\u_dut.u_engine.locked_i == (armed_i != '0 || arm_request_i == 2'b11 || runs_q));
       jumps_until_sampled: assert (restart == open_q);
@@ -126,7 +128,7 @@ module around_proof (
       only_its_addresses: assert (\u_dut.u_engine.write_i == (write_i && ours) && \u_dut.u_engine.read_i == (read_i && ours) &&
           \u_dut.u_engine.wdata_i == wdata_i && \u_dut.u_engine.addr_i == addr_i[11:0] && busy == (ours && \u_dut.u_engine.busy_o ));
       read_of_its_addresses: assert (!after_q || rdata == word_then_q);
-      inside_check: assert (\u_dut.checks_q == runs_q && \u_dut.check_of_these_q == begun_q && unchecked == !checked_q);
+      inside_check: assert (\u_dut.checks_q == runs_q && \u_dut.check_of_these_q == begun_q && \u_dut.checked_q == checked_q && unchecked == !told_q && (checked_q || !told_q));
       inside_past: assert (\u_dut.law_any_q == in_law_q && \u_dut.armed_q == was_armed_q && ended_q != 2'd3);
       inside_runs: assert (\u_dut.runs_q == (open_q ? 2'd2 - ended_q : 2'd0) && (!\u_dut.taken_q || !open_q || ended_q != 2'd2 || restart));
       is_checked: cover (!unchecked);

@@ -4,14 +4,11 @@
 # feltgate::backends: the twin and the chains of any design. rtl.cmake adds the back-ends of Verilated cores.
 include_guard(GLOBAL)
 
-# FELTGATE_DESIGNS: those whose RTL is in every program that has some. That of the others, FELTGATE_PRESETS, is in programs
-# of their own.
+# FELTGATE_DESIGNS: those whose RTL is in every program that has some. That of FELTGATE_OTHERS is in programs of their own.
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
-list(TRANSFORM designs REPLACE "^.*/(.*)\\.toml$" "\\1" OUTPUT_VARIABLE FELTGATE_DESIGNS)
-set(presets "${FELTGATE_ROOT}/rtl/designs/presets.txt")
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${presets}")
-file(STRINGS "${presets}" FELTGATE_PRESETS REGEX "^[a-z]")
-list(REMOVE_ITEM FELTGATE_DESIGNS ${FELTGATE_PRESETS})
+list(TRANSFORM designs REPLACE "^.*/(.*)\\.toml$" "\\1" OUTPUT_VARIABLE FELTGATE_OTHERS)
+set(FELTGATE_DESIGNS lever paper)
+list(REMOVE_ITEM FELTGATE_OTHERS ${FELTGATE_DESIGNS})
 
 # feltgate_type_of(<design> <variable>): the type of its generated header, the name in UpperCamelCase, as the generator
 # writes it.
@@ -27,21 +24,27 @@ function(feltgate_type_of design variable)
   set(${variable} "${type}" PARENT_SCOPE)
 endfunction()
 
-# feltgate_package(<variable> <design>): the cfg.sv of a design in rtl/designs. Three are committed; the others are made of
-# their files at build time.
+# The packages and C++ headers of all designs, made of their files at build time: the headers as feltgate/generated/NAME.hpp,
+# for tests and for what knows a Verilated core.
+set(FELTGATE_HEADERS "${PROJECT_BINARY_DIR}/designs/include")
+set(headers "")
+foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_OTHERS)
+  set(folder "${PROJECT_BINARY_DIR}/designs/${design}")
+  set(header "${FELTGATE_HEADERS}/feltgate/generated/${design}.hpp")
+  add_custom_command(OUTPUT "${folder}/cfg.sv" "${header}"
+    COMMAND feltgate_generate "${FELTGATE_ROOT}" --design "${FELTGATE_ROOT}/rtl/designs/${design}.toml" --output "${folder}"
+    COMMAND ${CMAKE_COMMAND} -E copy_if_different "${folder}/${design}.hpp" "${header}"
+    COMMAND ${CMAKE_COMMAND} -E touch "${folder}/cfg.sv" "${header}"
+    DEPENDS feltgate_generate "${FELTGATE_ROOT}/rtl/designs/${design}.toml" "${FELTGATE_ROOT}/rtl/registers.toml" VERBATIM)
+  list(APPEND headers "${header}")
+endforeach()
+add_custom_target(feltgate_headers DEPENDS ${headers})
+
+# feltgate_package(<variable> <design>): its cfg.sv. Three are committed.
 function(feltgate_package variable design)
   set(package "${FELTGATE_ROOT}/rtl/generated/${design}/cfg.sv")
   if(NOT EXISTS "${package}")
-    set(folder "${PROJECT_BINARY_DIR}/designs/${design}")
-    set(package "${folder}/cfg.sv")
-    if(NOT TARGET package_${design})
-      set(file "${FELTGATE_ROOT}/rtl/designs/${design}.toml")
-      add_custom_command(OUTPUT "${package}"
-        COMMAND feltgate_generate "${FELTGATE_ROOT}" --design "${file}" --output "${folder}"
-        COMMAND ${CMAKE_COMMAND} -E touch "${package}"
-        DEPENDS feltgate_generate "${file}" "${FELTGATE_ROOT}/rtl/registers.toml" VERBATIM)
-      add_custom_target(package_${design} DEPENDS "${package}")
-    endif()
+    set(package "${PROJECT_BINARY_DIR}/designs/${design}/cfg.sv")
   endif()
   set(${variable} "${package}" PARENT_SCOPE)
 endfunction()

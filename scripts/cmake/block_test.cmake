@@ -33,7 +33,10 @@ if(NOT TARGET feltgate_catch_main)
   add_library(feltgate_catch_main STATIC
     ${FELTGATE_ROOT}/testbench/common/catch_main.cpp ${FELTGATE_ROOT}/testbench/common/mismatch.cpp)
   target_include_directories(feltgate_catch_main PUBLIC
-    ${FELTGATE_ROOT}/testbench/common ${FELTGATE_ROOT}/model/include)
+    ${FELTGATE_ROOT}/testbench/common ${FELTGATE_ROOT}/model/include ${FELTGATE_HEADERS})
+  if(TARGET feltgate_headers)
+    add_dependencies(feltgate_catch_main feltgate_headers)
+  endif()
   target_compile_definitions(feltgate_catch_main PUBLIC
     FELTGATE_BUILD_DIR="${PROJECT_BINARY_DIR}" FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
   target_compile_features(feltgate_catch_main PUBLIC cxx_std_17)

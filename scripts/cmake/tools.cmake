@@ -140,7 +140,7 @@ feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
   feltgate_command_line nlohmann_json::nlohmann_json)
 target_sources(feltgate PRIVATE $<TARGET_OBJECTS:feltgate_run_parts>)
 
-include(presets)
+include(other_designs)
 
 # What `feltgate explore` takes from the build; with synth it makes designs out of tree.
 feltgate_program(feltgate_point_bounds bounds_main.cpp feltgate_bounds nlohmann_json::nlohmann_json)
@@ -180,7 +180,7 @@ endif()
 # tests those of lever and gimbal_motor are built, the others when asked for. Nothing but its functions is seen from outside:
 # an importer may load two.
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/fmu.map" CONTENT "{ global: fmi3*; feltgate_fmu_*; local: *; };\n")
-foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_PRESETS)
+foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_OTHERS)
   if(design MATCHES "_law$")
     continue()
   endif()

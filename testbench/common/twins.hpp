@@ -5,7 +5,6 @@
 // Documentation: docs/testing.md
 #pragma once
 
-#include "feltgate/device.hpp"
 #include "feltgate/feltgate_axes.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/linked_core.hpp"
@@ -27,11 +26,6 @@ template <class D, int N = 1>
 struct LinkedOf : LinkedCore<N, D::engine != 0> {
   explicit LinkedOf(LinkedOptions options = {})
       : LinkedCore<N, D::engine != 0>(design_of<D>(), options) {}
-};
-
-template <class D>
-struct TwinDeviceOf : TwinDevice {
-  TwinDeviceOf() : TwinDevice(design_info<D>()) {}
 };
 
 /// Bits at the ports of the Verilated core of D.

@@ -48,7 +48,7 @@ class Rig {
   const CoreOut& out() const { return device.out(); }
   const plant::Observables& lever() const { return plant.observables(); }
 
-  test::TwinDeviceOf<D> device;
+  TwinDevice device{design_info<D>()};
   plant::Plant plant;
   Wiring wiring;
 

@@ -45,11 +45,6 @@ void refuse_folder(const std::string& name, const std::string& names) {
   }
 }
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 [[noreturn]] void refuse_name(const std::string& name, const std::string& folder,
                               const std::set<std::string>& names) {
   throw std::invalid_argument(
@@ -138,6 +133,7 @@ design::Elaborated elaborated_design(const std::string& name) {
 }
 
 void use_design_files() {
+  if (!fs::exists(fs::path(repository()) / "rtl/designs")) return;  // those of the build, then
   set_design_source(
       {[](const std::string& name) { return design::info_of(elaborated_design(name)); },
        [] {

@@ -137,7 +137,8 @@ void write_row(std::FILE* to, const std::vector<double>& row) {
   std::fwrite(line.data(), 1, line.size(), to);
 }
 
-int run_axes_scene(const std::string& path, RunArguments a) {
+int run_axes_scene(const std::string& path, const RunArguments& given) {
+  RunArguments a = given;
   AxesScene scene = device_scene(path);
   if (a.design.empty()) a.design = own_design(scene);
   if (a.columns) {

@@ -147,7 +147,7 @@ void write_states(files::OutputFile& to, const SceneLaw& law, RunOptions& option
 
 /// The design of --design, else that for which the scene is made.
 std::string design_of(const RunArguments& a, const Scenario& s) {
-  return built_design(!a.design.empty() ? a.design : s.law.empty() ? own_design(s) : "lever");
+  return built_design(!a.design.empty() ? a.design : own_design(s));
 }
 
 /// What a reader of the scene may expect otherwise.

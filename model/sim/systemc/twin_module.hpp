@@ -127,7 +127,7 @@ class TwinModule : public sc_core::sc_module {
     word_data_o.write(o.word_data);
   }
 
-  FeltgateCore<D> core_;
+  FeltgateCore core_{design_of<D>()};
   bool stop_seen_ = false;  ///< since the last clock
 };
 

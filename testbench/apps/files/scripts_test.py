@@ -48,7 +48,8 @@ class Scripts(Bench):
 
     def test_demo(self):
         self.path("traces").mkdir()
-        self.put("root/rtl/designs/presets.txt", "")
+        self.path("root").mkdir()
+        self.path("root/rtl").symlink_to(ROOT / "rtl")
         for name in ("one", "two"):
             self.put(f"root/vectors/scenes/{name}.toml", self.path("short.toml").read_text(encoding="utf-8"))
         words = ("--no-figures", "--traces", "traces", "--out", "out", "--jobs", "2")

@@ -35,7 +35,7 @@ Most most_of(double swing_rad_s) {
   Most most;
   for (const char* scene : {"free", "setpoint", "membrane", "spring_compression", "spring_tension",
                             "damper", "charge_attract", "charge_repel", "wall"}) {
-    test::TwinDeviceOf<D> device;
+    TwinDevice device{feltgate::design_info<D>()};
     device.select(scene);
     device.arm();
     const double amplitude_rad = 1.0, rate = swing_rad_s / amplitude_rad;
@@ -56,7 +56,7 @@ Most most_of(double swing_rad_s) {
 template <class D>
 void check_wrong_way() {
   for (const double sign : {1.0, -1.0}) {
-    test::TwinDeviceOf<D> device;
+    TwinDevice device{feltgate::design_info<D>()};
     device.select("setpoint");
     device.arm();
     double torque_nm = 0;

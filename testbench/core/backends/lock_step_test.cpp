@@ -84,7 +84,7 @@ TEST_CASE("stretches of any length see the mismatches that a comparison clock by
   REQUIRE(expected.mismatches == 0);
 #endif
   for (const Clock step : {Clock{25}, Clock{999}, Clock{50'000}}) {
-    const auto engine = std::make_unique<LockStepBackend<Vfeltgate_core, Lever>>();
+    const auto engine = std::make_unique<LockStepBackend<Vfeltgate_core>>(design_info<Lever>());
     engine->reset(seed, {});
     for (const auto& [address, word] : host_writes()) engine->write(address, word);
     std::size_t snapshots = 0, sent = 0;

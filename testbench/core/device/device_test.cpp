@@ -49,7 +49,7 @@ void set_up(Device& d) {
 
 template <class D>
 void check_against_the_core() {
-  test::TwinDeviceOf<D> d;
+  TwinDevice d{design_info<D>()};
   test::CoreOf<D> core;
   set_up(d);
   Random random(7);
@@ -91,7 +91,7 @@ TEST_CASE("every clock of a device is the core's") {
 }
 
 TEST_CASE("what an armed core drops is refused or waits, and arming for it") {
-  test::TwinDeviceOf<Lever> d;
+  TwinDevice d{design_info<Lever>()};
   const auto at = [&](int ticks) {
     for (int k = 0; k < ticks; ++k) d.tick({});
   };
@@ -114,7 +114,7 @@ TEST_CASE("what an armed core drops is refused or waits, and arming for it") {
 }
 
 TEST_CASE("a tick at a time is clock by clock") {
-  test::TwinDeviceOf<Lever> ticks, clocks;
+  TwinDevice ticks{design_info<Lever>()}, clocks{design_info<Lever>()};
   set_up(ticks);
   set_up(clocks);
   Random random(11);
@@ -148,7 +148,7 @@ TEST_CASE("a lever that is moved by angles meets the wall") {
 }
 
 TEST_CASE("arming knows nothing of edges") {
-  test::TwinDeviceOf<Lever> d;
+  TwinDevice d{design_info<Lever>()};
   d.arm();  // before the first clock: high from the start would never arm
   for (int k = 0; k < 3; ++k) d.tick({});
   CHECK(d.armed());
@@ -199,7 +199,7 @@ TEST_CASE("parameters go by name, in their units") {
 }
 
 TEST_CASE("every scene that a design builds can be chosen") {
-  test::TwinDeviceOf<Lever> d;
+  TwinDevice d{design_info<Lever>()};
   unsigned chosen = 2;  // bit 1: the scene that the map leaves out
   for (const std::string& scene : d.design().scenes) {
     d.select(scene);

@@ -14,6 +14,7 @@
 #include "ports.hpp"
 #include "random.hpp"
 #include "sim/backends/rtl_ports.hpp"
+#include "twins.hpp"
 
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever
@@ -22,7 +23,6 @@
 #include FELTGATE_DESIGN_HEADER
 #else
 #include "feltgate/generated/paper.hpp"
-#include "twins.hpp"
 #endif
 
 namespace feltgate::test {

@@ -10,6 +10,7 @@
 #include "sim/backends/lock_step_core.hpp"
 #include "sim/backends/rtl_model.hpp"
 #include "sim/backends/rtl_ports.hpp"
+#include "twins.hpp"
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever
 #include "feltgate/generated/lever.hpp"
@@ -17,7 +18,6 @@
 #include FELTGATE_DESIGN_HEADER
 #else
 #include "feltgate/generated/paper.hpp"
-#include "twins.hpp"
 #endif
 
 using feltgate::CoreIn;

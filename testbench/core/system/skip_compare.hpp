@@ -80,7 +80,7 @@ std::uint32_t heat_of(FeltgateCore core) {
   write(D::A::nominal_current_squared, 0);  // it does not cool from here on
   std::uint32_t heat = 0;
   for (std::uint32_t bit = 1u << 31; bit != 0; bit >>= 1) {
-    Core tried = core;
+    FeltgateCore tried = core;
     write(D::A::i2t_budget, 0xffffffffu);
     write(D::C::command, 1u << D::C::command_clear_faults);
     write(D::A::i2t_budget, heat | bit);

@@ -26,6 +26,7 @@
 #include "law/load.hpp"
 #endif
 #include "sim/backends/rtl_axes_ports.hpp"
+#include "twins.hpp"
 #if defined(AXES)
 #if AXES == 2
 #include "feltgate/generated/pantograph_law.hpp"
@@ -46,7 +47,6 @@
 #include "feltgate/generated/hall_motor.hpp"
 #else
 #include "feltgate/generated/lever.hpp"
-#include "twins.hpp"
 #endif
 
 namespace feltgate::test {

@@ -12,8 +12,9 @@
 
 namespace feltgate::design {
 
-/// The files of rtl/designs, and rtl/registers.toml.
-extern const std::vector<ShippedFile> shipped_designs;
+/// The files of rtl/designs, up to one without a name, and rtl/registers.toml. They are there before
+/// any constructor runs.
+extern const ShippedFile* const shipped_designs;
 extern const char* const shipped_registers;
 
 namespace {
@@ -34,15 +35,15 @@ const RegisterMap& registers() {
 
 std::vector<std::string> shipped_names() {
   std::vector<std::string> names;
-  for (const ShippedFile& f : shipped_designs) names.emplace_back(f.name);
+  for (const ShippedFile* f = shipped_designs; f->name != nullptr; ++f) names.emplace_back(f->name);
   return names;
 }
 
 Elaborated design_named(const std::string& name) {
   if (is_path(name)) return elaborate(read_design(name), registers());
-  for (const ShippedFile& f : shipped_designs) {
-    if (name != f.name) continue;
-    return elaborate(design_from_text(f.text, fmt::format("rtl/designs/{}.toml", name)), registers());
+  for (const ShippedFile* f = shipped_designs; f->name != nullptr; ++f) {
+    if (name != f->name) continue;
+    return elaborate(design_from_text(f->text, fmt::format("rtl/designs/{}.toml", name)), registers());
   }
   throw std::invalid_argument(fmt::format(
       "design \"{}\" is unknown; {}choose one of {}, or give the path of a design file", name,

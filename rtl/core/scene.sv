@@ -32,7 +32,7 @@ module scene (
   localparam int PartF = cfg::SCENE_PART_F;
   localparam int Guard = cfg::SCENE_GUARD_BITS;
   localparam int DistanceF = cfg::SCENE_DISTANCE_F;
-  localparam int Operand = cfg::VELOCITY_W;
+  localparam int Operand = cfg::VELOCITY_W > cfg::SCENE_DISTANCE_W ? cfg::VELOCITY_W : cfg::SCENE_DISTANCE_W;
 
   logic setpoint, membrane, compression, tension, damper, attract, repel, wall, law, charge;
   assign setpoint    = cfg::SCENE_MASK[map::SCENE_SETPOINT] && scene_i == map::SCENE_SETPOINT;
@@ -81,7 +81,7 @@ module scene (
   logic signed [Operand+17:0] product_q;
   logic signed [63:0] product;
   always_ff @(posedge clk_i) begin
-    operand_q <= velocity_valid_i ? velocity_i : Operand'(distance);
+    operand_q <= velocity_valid_i ? Operand'(velocity_i) : Operand'(distance);
     if (start_i)               factor_q <= {1'b0, stiffness};
     else if (at[0])            factor_q <= {1'b0, slope};
     else if (velocity_valid_i) factor_q <= {1'b0, damping};

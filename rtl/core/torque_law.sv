@@ -32,7 +32,9 @@ module torque_law (
   localparam int W = cfg::LIMITER_INPUT_W;  // of a sum before its limit
   localparam int AppliedW = cfg::WITH_ADDEND_W;
   localparam int OffsetW = cfg::VOLTAGE_W + 2;
-  localparam int O = cfg::VELOCITY_W;       // of the widest operand
+  localparam int Speed = cfg::VELOCITY_W > AppliedW ? cfg::VELOCITY_W : AppliedW;
+  localparam int Force = cfg::TORQUE_W > cfg::CURRENT_W ? cfg::TORQUE_W : cfg::CURRENT_W;
+  localparam int O = Speed > Force ? Speed : Force;  // of the widest operand
   localparam int DutyDrop = cfg::VOLTAGE_F + cfg::P_DUTY_GAIN_F;
   logic closed, direct;
   assign closed = mode_i != 2'(map::MODE_OPEN);
@@ -55,7 +57,7 @@ module torque_law (
                                                     : {O'(tau_ref_i), 1'b0, p.torque_gain};
     else if (at[0]) {operand_q, factor_q} <= {O'(tau_hat_i), p.observer_gain};
     else if (at[1]) {operand_q, factor_q} <= {O'(tau_ref_i), 1'b0, p.dead_voltage_slope};
-    else if (at[2]) {operand_q, factor_q} <= {velocity_i, 1'b0, p.emf_constant};
+    else if (at[2]) {operand_q, factor_q} <= {O'(velocity_i), 1'b0, p.emf_constant};
     else if (at[4]) {operand_q, factor_q} <= {O'(current_o), 1'b0, high_q ? p.voltage_gain_high : p.voltage_gain};
     else            {operand_q, factor_q} <= {O'(applied_q), 1'b0, p.duty_gain};
     product_q <= operand_q * factor_q;

@@ -29,16 +29,18 @@ module motor_heat (
   localparam int SumW = cfg::I2T_W + 1;  // a sum at the budget can still grow by I^2
 
   logic [6:0] at;  // clocks since start_i
-  logic signed [cfg::VELOCITY_W-1:0] operand_q;
+  localparam int Speed = cfg::VELOCITY_W > cfg::VOLTAGE_W ? cfg::VELOCITY_W : cfg::VOLTAGE_W;
+  localparam int Operand = Speed > EstimateW ? Speed : EstimateW;  // the widest
+  logic signed [Operand-1:0] operand_q;
   logic signed [17:0] factor_q;
-  logic signed [cfg::VELOCITY_W+17:0] product_q;
+  logic signed [Operand+17:0] product_q;
   logic signed [63:0] product;
   logic signed [EstimateW-1:0] heating;
   assign heating = !measured_i ? current_o : EstimateW'(fx::scale(64'(measured_current_i), cfg::CURRENT_ESTIMATE_F - cfg::CURRENT_F));
   always_ff @(posedge clk_i) begin
-    if (start_i)    {operand_q, factor_q} <= {cfg::VELOCITY_W'(voltage_i), 1'b0, p.inverse_resistance};
-    else if (at[0]) {operand_q, factor_q} <= {velocity_i, 1'b0, p.emf_over_resistance};
-    else            {operand_q, factor_q} <= {cfg::VELOCITY_W'(heating), 18'(heating)};
+    if (start_i)    {operand_q, factor_q} <= {Operand'(voltage_i), 1'b0, p.inverse_resistance};
+    else if (at[0]) {operand_q, factor_q} <= {Operand'(velocity_i), 1'b0, p.emf_over_resistance};
+    else            {operand_q, factor_q} <= {Operand'(heating), 18'(heating)};
     product_q <= operand_q * factor_q;
   end
   assign product = 64'(product_q);

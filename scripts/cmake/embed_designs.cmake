@@ -18,16 +18,18 @@ math(EXPR half "${length} / 2")
 string(SUBSTRING "${registers}" 0 ${half} first)
 string(SUBSTRING "${registers}" ${half} -1 second)
 file(WRITE "${OUTPUT}" "// Written by scripts/cmake/embed_designs.cmake: do not edit.
-#include <vector>
-
 #include \"design/info.hpp\"
 
 namespace feltgate::design {
 
-extern const std::vector<ShippedFile> shipped_designs;
+namespace {
+constexpr ShippedFile files[] = {
+${designs}    {nullptr, nullptr}};
+}  // namespace
+
+extern const ShippedFile* const shipped_designs;
 extern const char* const shipped_registers;
-const std::vector<ShippedFile> shipped_designs{
-${designs}};
+const ShippedFile* const shipped_designs = files;
 const char* const shipped_registers = R\"toml(${first})toml\" R\"toml(${second})toml\";
 
 }  // namespace feltgate::design

@@ -4,6 +4,7 @@
 // The extension module feltgate._core. Documentation: docs/python.md
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <vector>
 
@@ -25,10 +26,11 @@ std::string& data_folder() {
 DesignInfo read_named(const std::string& name) {
   const char* given = std::getenv("FELTGATE_ROOT");
   const std::string root = given != nullptr && *given != 0 ? given : data_folder();
-  const bool path = name.find('/') != std::string::npos ||
-                    (name.size() > 5 && name.compare(name.size() - 5, 5, ".toml") == 0);
-  return design::info_of(elaborated_files(path ? name : root + "/rtl/designs/" + name + ".toml",
-                                          root + "/rtl/registers.toml"));
+  const bool is_path = name.find('/') != std::string::npos ||
+                       (name.size() > 5 && name.compare(name.size() - 5, 5, ".toml") == 0);
+  std::string path = is_path ? name : root + "/rtl/designs/" + name + ".toml";
+  if (!std::filesystem::exists(path)) path = data_folder() + "/rtl/designs/" + name + ".toml";
+  return design::info_of(elaborated_files(path, root + "/rtl/registers.toml"));
 }
 
 }  // namespace

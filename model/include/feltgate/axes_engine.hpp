@@ -269,8 +269,9 @@ class AxesEngine {
   static law::RunTiming timing(const axis::Design& d) {
     using Core = FeltgateCore;
     constexpr int measured = Core::measured_clock;
-    return {d["CLOCKS_PER_TICK"], measured - Core::sample_clock - 1,
-            measured - Core::velocity_clock, Core::law_duty_clock - measured - 1};
+    const int tick = d["CLOCKS_PER_TICK"];
+    return {tick, measured - Core::sample_clock - 1, measured - Core::velocity_clock,
+            tick - 2 - measured};
   }
 
   law::EngineRuns<N> runs_;

@@ -53,7 +53,8 @@ class FeltgateAxes {
   /// Advances `clocks` clocks with the inputs held; reg_write and the axes' set_zero must be low.
   /// Equals so many calls of clock(), but goes from event to event where no axis can affect the
   /// others. `on_snapshot()` is called whenever out() holds a valid snapshot. A watcher gets
-  /// `event(clock, number)` for each event of a program, where clock 0 is the first of these clocks.
+  /// `event(clock, number)` for each event of a program, where clock 0 is the first of these clocks,
+  /// and `tick_ends()` before a tick's last clock, when all is known of the runs that began in it.
   template <class OnSnapshot>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     NoWatcher none;
@@ -64,15 +65,17 @@ class FeltgateAxes {
     std::int64_t at = 0;
     while (at < clocks) {
       std::array<CoreIn, N> each = inputs(in);
-      bool snapshot = false;
-      int step = pass(in, each, at, clocks, &snapshot, watcher);
+      bool snapshot = false, ends = false;
+      int step = pass(in, each, at, clocks, &snapshot, &ends, watcher);
       if (step == 0) {
         step = 1;
         if (glue_.event_valid()) watcher.event(at, glue_.event_number());
         one_clock(in, each);
         snapshot = out_.axis[0].snapshot_valid;
+        ends = last();
       }
       if (snapshot) on_snapshot();
+      if (ends) watcher.tick_ends();
       at += step;
     }
     show(in);
@@ -83,6 +86,8 @@ class FeltgateAxes {
   Core& core(int n) { return cores_[static_cast<std::size_t>(n)]; }
   /// The next clock's number in its tick; the same for all axes.
   int clock_of_tick() const { return cores_[0].clock_of_tick(); }
+  /// Whether the next clock is the last of its tick.
+  bool last() const { return clock_of_tick() == cores_[0].clocks_per_tick() - 1; }
   /// Whether in the next clock position, velocity and tau_hat of all axes are those of this tick.
   bool measured() const { return cores_[0].measured(); }
   /// The engine; only with WithEngine.
@@ -119,6 +124,7 @@ class FeltgateAxes {
 
   struct NoWatcher {
     void event(std::int64_t, int) {}
+    void tick_ends() {}
   };
 
   // Out of line, like pass(): flattened into an engine's advance() it takes a minute to compile and
@@ -157,7 +163,7 @@ class FeltgateAxes {
   /// clock().
   template <class Watcher>
   [[gnu::noinline]] int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t at,
-                             std::int64_t clocks, bool* snapshot, Watcher& watcher) {
+                             std::int64_t clocks, bool* snapshot, bool* ends, Watcher& watcher) {
     const int tick = cores_[0].clocks_per_tick();
     const int from = clock_of_tick();
     int to = static_cast<int>(std::min<std::int64_t>(tick, from + clocks - at));
@@ -189,6 +195,7 @@ class FeltgateAxes {
         *snapshot = true;
       });
     }
+    *ends = from < tick - 1 && to >= tick - 1;
     if (measures) glue_.tick(kMeasured - from, cores_);
     glue_.advance(to - from, cores_,
                   [&](int clock, int number) { watcher.event(at + clock, number); });

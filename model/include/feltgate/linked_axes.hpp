@@ -25,6 +25,7 @@ class LinkedAxes {
     struct Watcher {
       OnEvent& on_event;
       void event(std::int64_t clock, int number) { on_event(clock, number); }
+      void tick_ends() {}
     } watcher{on_event};
     axes_.run(taking(in), clocks, on_snapshot, watcher);
   }

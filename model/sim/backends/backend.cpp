@@ -91,7 +91,7 @@ std::unique_ptr<Backend> make_backend(const std::string& name, const std::string
   if (core == rtl().end()) {
     throw std::invalid_argument(
         fmt::format("engine \"{}\" of design {}: its RTL is not in this program; choose the engine "
-                    "twin, or start ./feltgate, which builds the RTL of the designs in rtl/designs",
+                    "twin, or put its file into rtl/designs and start ./feltgate, which builds it",
                     kind, name));
   }
   require_rtl_of(design, core->second.design_crc);

@@ -27,15 +27,23 @@ class LawCore {
     axes_.clock(axes_in(in));
     show();
   }
-  /// Like FeltgateCore::run(): from event to event while nobody writes.
+  /// Like FeltgateCore::run(): from event to event while nobody writes. A snapshot is told of at the
+  /// end of its tick, when it is known which runs of the program began in it.
   template <class OnSnapshot>
   void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    axes_.run(axes_in(in), clocks, [&] {
-      show();
-      on_snapshot();
-    });
+    struct Watcher {
+      LawCore& core;
+      OnSnapshot& on_snapshot;
+      void event(std::int64_t, int) {}
+      void tick_ends() {
+        core.show();
+        on_snapshot();
+      }
+    } watcher{*this, on_snapshot};
+    axes_.run(axes_in(in), clocks, [] {}, watcher);
     show();
   }
+  bool snapshot_due() const { return axes_.last(); }
   bool calm(const CoreIn& in, std::int64_t clocks) { return axes_.calm(axes_in(in), clocks); }
 
   const CoreOut& out() const { return out_; }
@@ -97,6 +105,9 @@ inline void tell_of_law(const LawCore& core, Snapshot* s) { core.tell(s); }
 /// The events of a law.
 inline std::vector<LawEvent> law_events_of(FeltgateCore&) { return {}; }
 inline std::vector<LawEvent> law_events_of(LawCore& core) { return core.law_events(); }
+/// After a clock: whether its snapshot is to be told of.
+inline bool snapshot_due(const FeltgateCore& core) { return core.out().snapshot_valid; }
+inline bool snapshot_due(const LawCore& core) { return core.snapshot_due(); }
 /// Whether the target of a write could take it now.
 inline bool takes_write(const FeltgateCore&) { return true; }
 inline bool takes_write(const LawCore& core) { return !core.busy(); }

@@ -115,7 +115,7 @@ class LockStepCore {
       }
       const CoreOut& out = twin_.out();
       shown_outputs_.put(shown_++, out);
-      if (out.snapshot_valid) on_snapshot();
+      if (snapshot_due(twin_)) on_snapshot();
     }
   }
   void follow() {

@@ -90,7 +90,12 @@ class TwinAxes : public AxesCores {
     if (!with_rtl && !in_.reg_write) {
       // Without RTL nobody reads; the back-end's address would force clock-by-clock execution.
       if (writes_.empty()) in_.reg_addr = 0;
-      twin_->run(in_, clocks, [this] { keep(); });
+      struct Watcher {
+        TwinAxes& axes;
+        void event(std::int64_t, int) {}
+        void tick_ends() { axes.keep(); }
+      } watcher{*this};
+      twin_->run(in_, clocks, [] {}, watcher);
       now_ += clocks;
       return;
     }
@@ -99,10 +104,11 @@ class TwinAxes : public AxesCores {
       twin_->clock(in_);
       if (with_rtl) follow();
       ++now_;
-      if (twin_->out().axis[0].snapshot_valid) keep();
+      if (twin_->last()) keep();
     }
   }
 
+  /// At the end of a tick, when it is known which runs of the program began in it.
   void keep() {
     AxesSnapshot s;
     std::int64_t writes = engine_writes_;

@@ -53,7 +53,7 @@ class TwinBackend : public ClockedBackend {
       if (!writes_.empty() && clock_of_tick == host_write_clock && takes_write(core_)) {
         issue_write(&in);
         core_.clock(in);
-        if (core_.out().snapshot_valid) tell();
+        if (snapshot_due(core_)) tell();
         in.reg_write = false;
         ++now_;
         continue;

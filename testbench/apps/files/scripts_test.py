@@ -14,7 +14,7 @@ import time
 import unittest
 
 from bench import Bench
-from testing import SCRIPTS, ran
+from testing import ROOT, SCRIPTS, ran
 
 import crew
 import interrupts

@@ -174,7 +174,7 @@ class Installed(unittest.TestCase):
 class Refused(unittest.TestCase):
     CASES = (
         ('not in vectors/scenes; did you mean "membrane"', lambda: feltgate.run("membran")),
-        ('"levr" is not built in; did you mean "lever"', lambda: feltgate.run(SCENE, "levr")),
+        ('"levr" is not in rtl/designs; did you mean "lever"', lambda: feltgate.run(SCENE, "levr")),
         ('"flaot" is unknown; did you mean "float"',
          lambda: feltgate.run(SCENE, engine=["twin", "flaot"])),
         ("every is 0", lambda: feltgate.run(SCENE, every=0)),

@@ -87,10 +87,6 @@ class Device {
   bool host_, opened_ = false;
 };
 
-struct SlowPwm : feltgate::LeverCurrent {
-  static constexpr int pwm_period = 2500;
-};
-
 using OneWithEngine = Device<feltgate::KnobLaw, 1, true>;
 using Two = Device<feltgate::LeverAbsolute, 2, false>;
 
@@ -144,8 +140,9 @@ TEST_CASE("late sensor: an axis that asked 20 ms ago arms with no other") {
 }
 
 TEST_CASE("late sensor: a simulation asks once the offset of a current is known, if it is slow") {
-  CHECK(feltgate::design_info<feltgate::LeverCurrent>().request_at(7) == 7);
-  const auto slow = feltgate::design_info<SlowPwm>();
+  feltgate::DesignInfo slow = feltgate::design_info<feltgate::LeverCurrent>();
+  CHECK(slow.request_at(7) == 7);
+  slow.pwm_period = 2500;
   CHECK(slow.request_at(7) == 513 * 2500);
   CHECK(slow.request_at(2'000'000) == 2'000'000);
 }

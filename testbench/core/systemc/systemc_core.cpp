@@ -25,7 +25,6 @@
 #include "sim/plant/plant_file.hpp"
 #include "sim/systemc/motor_module.hpp"
 #include "sim/systemc/twin_module.hpp"
-#include "twins.hpp"
 
 using namespace feltgate;
 
@@ -98,7 +97,7 @@ class Watch : public sc_core::sc_module {
 std::int32_t direct_count(std::int64_t clocks) {
   const plant::Parameters p = motor();
   plant::Plant plant(p, p.effects, plant::drive_of(design_info<Lever>()), hand());
-  test::CoreOf<Lever> core;
+  FeltgateCore core{design_of<Lever>()};
   CoreIn in;
   in.encoder = plant.encoder().pins();
   double on[4] = {};
@@ -219,8 +218,8 @@ class Beside : public sc_core::sc_module {
   systemc::TwinModule<D> twin{"twin"};
 
  private:
-  test::CoreOf<D> core_;
-  AbsoluteSensor sensor_{test::absolute_parameters<GimbalCurrent>()};
+  FeltgateCore core_{design_of<D>()};
+  AbsoluteSensor sensor_{axis::Absolute::parameters(design_of<GimbalCurrent>())};
   std::uint64_t bits_ = 1;
 };
 

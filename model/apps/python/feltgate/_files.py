@@ -38,7 +38,7 @@ def plants() -> List[str]:
 
 def designs() -> List[str]:
     """Names of the designs; wherever one is asked for, the path of a design file does, too."""
-    return _names(DESIGNS)
+    return sorted({*_names(DESIGNS), *(path.stem for path in (_DATA / DESIGNS).glob("*.toml"))})
 
 
 def find(name: PathLike, folder: str, suffix: str = ".toml") -> str:
@@ -48,10 +48,11 @@ def find(name: PathLike, folder: str, suffix: str = ".toml") -> str:
         if not os.path.isfile(text):
             raise ValueError(f"{text}: there is no such file; check the path")
         return text
-    path = root() / folder / f"{text}{suffix}"
-    if path.is_file():
-        return str(path)
-    names = _names(folder, suffix)
+    for place in (root(), _DATA) if folder == DESIGNS else (root(),):
+        path = place / folder / f"{text}{suffix}"
+        if path.is_file():
+            return str(path)
+    names = designs() if folder == DESIGNS else _names(folder, suffix)
     near = difflib.get_close_matches(text, names, n=1)
     hint = f"did you mean \"{near[0]}\"? " if near else ""
     raise ValueError(f"\"{text}\" is not in {folder}; {hint}choose one of {', '.join(names)} "

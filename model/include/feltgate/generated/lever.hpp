@@ -71,7 +71,6 @@ struct Lever {
   static constexpr int phases = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
   static constexpr std::uint32_t design_crc = 0xf6bf6134;  // by which a host knows the design
-  static constexpr std::uint32_t file_sum = 0xeae13a9b;  // by which a program notices that the file has changed
 
   /// Formats of the parameters.
   struct P {

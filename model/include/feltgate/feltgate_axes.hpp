@@ -174,7 +174,12 @@ class FeltgateAxes {
       }
       if (to == from) return 0;
     }
-    if (!in_step() || !apart(each, to == tick)) return 0;
+    if (!in_step()) return 0;
+    if (!apart(each, to == tick)) {
+      // One clock, before whose end no axis affects another.
+      if (!enabled()) return 0;
+      to = from + 1;
+    }
     const bool samples = from <= kSample && kSample < to;
     const bool measures = from <= kMeasured && kMeasured < to;
     if (measures && !glue_.may_tick(kMeasured - from)) return 0;
@@ -246,16 +251,19 @@ class FeltgateAxes {
                        [clock](const Core& core) { return core.duty_clock() == clock; });
   }
 
+  bool enabled() const {
+    return std::any_of(cores_.begin(), cores_.end(),
+                       [](const Core& core) { return core.out().gates_enable; });
+  }
   /// Whether no axis affects the others before the tick ends: no gates close, and, if the stretch
   /// ends the tick, no axis asks to be armed.
   bool apart(const std::array<CoreIn, N>& each, bool ends) const {
     if (N == 1) return true;
-    bool enabled = false, asks = false;
-    for (std::size_t n = 0; n < N; ++n) {
-      enabled |= cores_[n].out().gates_enable;
-      asks |= cores_[n].arm_request(each[n]);
+    if (!enabled()) {
+      bool asks = false;
+      for (std::size_t n = 0; n < N; ++n) asks |= cores_[n].arm_request(each[n]);
+      return !ends || !asks;
     }
-    if (!enabled) return !ends || !asks;
     for (std::size_t n = 0; n < N; ++n) {
       if (cores_[n].may_trip(each[n])) return false;
     }

@@ -167,7 +167,7 @@ class CommandLine(Bench):
         # Another design runs in the twin at once; its RTL is in no program.
         self.given.add("mine.toml")
         self.path("mine.toml").write_text(ours.read_text().replace("torque_limit_nm = 0.5", "torque_limit_nm = 0.4"))
-        done = self.run_it("--design", "mine.toml", "--engine", "twin,quad", "--json", "a.json")
+        done = self.run_it("--design", "mine.toml", "--json", "a.json")
         self.assertEqual(done.returncode, 0, done.err)
         self.assertEqual(json.loads(self.path("a.json").read_text())["design"], "mine")
         self.path("a.json").unlink()

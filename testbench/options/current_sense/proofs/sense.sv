@@ -26,13 +26,12 @@ module sense_proof (
 
   `include "reset.svh"
 
-  logic modulator_clock, valid, aligned, overcurrent, calibrated, offset_fault, stuck, saturated;
+  logic modulator_clock, aligned, overcurrent, calibrated, offset_fault, stuck, saturated;
   logic signed [W-1:0] current;
   current_sense u_dut (
       .*,
       .modulator_clock_o(modulator_clock),
       .current_o(current),
-      .valid_o(valid),
       .aligned_o(aligned),
       .overcurrent_o(overcurrent),
       .calibrated_o(calibrated),
@@ -298,7 +297,7 @@ module sense_proof (
                            third == third_q + (rise_q3 ? second_q : '0)));
       decimation_period: assert (!rise || \u_dut.due == due);
       strobe_begins_a_window: assert (!rise || \u_dut.restart == begins);
-      result_of_a_whole_window: assert (valid == whole_q[6]);
+      result_of_a_whole_window: assert (result_q == whole_q[6]);
       aligned_to_a_strobe: assert (aligned == (whole_q[6] && aligned_q[6]));
       third_difference: assert (!steps[3] || \u_dut.comb_q == wanted_q);
       current_less_offset: assert (!result_q || current == wanted_current);

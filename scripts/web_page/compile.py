@@ -34,6 +34,7 @@ FILES = (
     "sim/loop/backend_choice.cpp",
     "sim/loop/run_host.cpp",
     "sim/loop/step_plan.cpp",
+    "sim/reference/chain.cpp",
     "sim/touch/edges.cpp",
     "sim/touch/glb.cpp",
     "sim/touch/mesh.cpp",

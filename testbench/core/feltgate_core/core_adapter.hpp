@@ -55,7 +55,7 @@ struct CoreAdapter {
     check("encoder_select_n", rtl.encoder_select_no, out.serial & 1u);
     check("encoder_clock", rtl.encoder_clock_o, (out.serial >> 1) & 1u);
     check("encoder_command", rtl.encoder_command_o, (out.serial >> 2) & 1u);
-    check("current", sign_extend<19>(rtl.current_o), out.current);
+    check("current", sign_extend<Design::f.current.width()>(rtl.current_o), out.current);
     check("current_clock", rtl.current_clock_o, out.current_clock);
     check("heartbeat", rtl.heartbeat_o, out.heartbeat);
     FELTGATE_COMPARE(check, rtl, out, gates_enable, scene, limits, faults, first_fault, armed,

@@ -33,7 +33,8 @@ using D = feltgate::test::Design;
 namespace {
 
 static_assert(D::phases == 3 && D::current_loop != 0);
-constexpr double kFullA = 2, kLsb = kFullA / (1 << 17), kNmA = 0.0585, kOhm = 2.9;
+constexpr double kFullA = 2, kNmA = 0.0585, kOhm = 2.9;
+const double kLsb = std::ldexp(1.0, -D::f.current.fraction);  // A
 constexpr double kClockS = 1.0 / D::clock_hz;
 constexpr int kPeriod = D::pwm_period;
 /// Armed after the calibration, whose two averages take 512 periods.

@@ -12,8 +12,8 @@
 
 namespace feltgate::design {
 
-/// The files of rtl/designs, up to one without a name, and rtl/registers.toml. They are there before
-/// any constructor runs.
+/// The files of rtl/designs; an entry without a name ends the list. And rtl/registers.toml. Both are
+/// constant-initialised, so constructors of other files may read them.
 extern const ShippedFile* const shipped_designs;
 extern const char* const shipped_registers;
 

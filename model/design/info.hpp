@@ -22,6 +22,8 @@ struct ShippedFile {
 
 /// The designs of rtl/designs that this library was built with, in alphabetical order.
 std::vector<std::string> shipped_names();
+/// Whether this is the path of a design file rather than a name: it has a / or ends with .toml.
+bool is_path(const std::string& name_or_path);
 /// One of them by its name, or the design of a file by its path, which has a / or ends with .toml.
 /// Errors: std::invalid_argument that names the choices; those of read_design() and elaborate().
 Elaborated design_named(const std::string& name_or_path);

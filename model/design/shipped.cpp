@@ -19,19 +19,19 @@ extern const char* const shipped_registers;
 
 namespace {
 
-bool is_path(const std::string& name) {
-  const std::string ending = ".toml";
-  return name.find('/') != std::string::npos ||
-         (name.size() > ending.size() &&
-          name.compare(name.size() - ending.size(), ending.size(), ending) == 0);
-}
-
 const RegisterMap& registers() {
   static const RegisterMap map = registers_from_text(shipped_registers, "rtl/registers.toml");
   return map;
 }
 
 }  // namespace
+
+bool is_path(const std::string& name) {
+  const std::string ending = ".toml";
+  return name.find('/') != std::string::npos ||
+         (name.size() > ending.size() &&
+          name.compare(name.size() - ending.size(), ending.size(), ending) == 0);
+}
 
 std::vector<std::string> shipped_names() {
   std::vector<std::string> names;

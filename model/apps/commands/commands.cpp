@@ -33,10 +33,6 @@ double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-bool is_path(const std::string& name) {
-  return name.find('/') != std::string::npos || fs::path(name).extension() == ".toml";
-}
-
 void refuse_folder(const std::string& name, const std::string& names) {
   std::error_code ignored;
   if (fs::is_directory(name, ignored)) {
@@ -103,7 +99,7 @@ std::set<std::string> names_in(const std::string& folder, const std::string& suf
 }
 
 std::string find_file(const std::string& name, const std::string& folder) {
-  if (is_path(name)) {
+  if (design::is_path(name)) {
     std::error_code error;
     const fs::file_status status = fs::status(name, error);
     refuse_folder(name, folder);
@@ -119,7 +115,7 @@ std::string find_file(const std::string& name, const std::string& folder) {
 }
 
 std::string find_law(const std::string& name) {
-  const bool path_like = name.find_first_not_of('.') == std::string::npos || is_path(name);
+  const bool path_like = name.find_first_not_of('.') == std::string::npos || design::is_path(name);
   if (path_like) refuse_folder(name, "rtl/laws");
   if (name.find('/') != std::string::npos || fs::path(name).extension() == ".law") return name;
   const fs::path path = fs::path(repository()) / "rtl/laws" / (name + ".law");

@@ -26,9 +26,7 @@ std::string& data_folder() {
 DesignInfo read_named(const std::string& name) {
   const char* given = std::getenv("FELTGATE_ROOT");
   const std::string root = given != nullptr && *given != 0 ? given : data_folder();
-  const bool is_path = name.find('/') != std::string::npos ||
-                       (name.size() > 5 && name.compare(name.size() - 5, 5, ".toml") == 0);
-  std::string path = is_path ? name : root + "/rtl/designs/" + name + ".toml";
+  std::string path = design::is_path(name) ? name : root + "/rtl/designs/" + name + ".toml";
   if (!std::filesystem::exists(path)) path = data_folder() + "/rtl/designs/" + name + ".toml";
   return design::info_of(elaborated_files(path, root + "/rtl/registers.toml"));
 }

@@ -3,7 +3,7 @@
 //
 // Fixed-point arithmetic of all blocks. A value of any format comes sign-extended to 64 bits; the
 // caller casts the result to the width of its register, and synthesis removes the bits that nobody
-// reads. docs/fixed-point.md
+// reads. No function calls another one, which Quartus refuses. docs/fixed-point.md
 
 `default_nettype none
 
@@ -13,18 +13,21 @@ package fx;
     logic half, rest;
     half = 1'((x >>> (drop - 1)) & 64'sd1);
     rest = (x & ((64'sd1 <<< (drop - 1)) - 64'sd1)) != 64'sd0;
-    case (cfg::ROUNDING)
-      0:       rounds_up = half;                   // half up
-      1:       rounds_up = 1'b0;                   // down
-      default: rounds_up = half && (rest || odd);  // half to even
-    endcase
+    rounds_up = half && (cfg::ROUNDING == 0 || (cfg::ROUNDING == 2 && (rest || odd)));  // half up, down, half to even
   endfunction
 
-  // y + x * 2^-drop, rounded. One adder: the bit below the operands carries the rounding in.
+  // y + x * 2^-drop, rounded as above. One adder: the bit below the operands carries the rounding in.
   function automatic logic signed [63:0] add_rounded(input logic signed [63:0] y,
                                                      input logic signed [63:0] x, input int drop);
+    logic half, rest, odd;
+    logic signed [63:0] whole;
     logic signed [64:0] twice;
-    twice = {y, 1'b1} + {x >>> drop, rounds_up(x, drop, y[0] ^ 1'((x >>> drop) & 64'sd1))};
+    whole = x >>> drop;
+    half  = 1'((x >>> (drop - 1)) & 64'sd1);
+    rest  = (x & ((64'sd1 <<< (drop - 1)) - 64'sd1)) != 64'sd0;
+    odd   = y[0] ^ whole[0];
+    half  = half && (cfg::ROUNDING == 0 || (cfg::ROUNDING == 2 && (rest || odd)));
+    twice = {y, 1'b1} + {whole, half};
     add_rounded = twice[64:1];
   endfunction
 
@@ -46,7 +49,7 @@ package fx;
 
   // The nearest value of a signed format of so many bits.
   function automatic logic signed [63:0] saturate(input logic signed [63:0] x, input int bits);
-    if (!overflows(x, bits)) saturate = x;
+    if ((x >>> (bits - 1)) == 64'sd0 || (x >>> (bits - 1)) == -64'sd1) saturate = x;
     else saturate = x[63] ? -(64'sd1 <<< (bits - 1)) : (64'sd1 <<< (bits - 1)) - 64'sd1;
   endfunction
 
@@ -59,7 +62,9 @@ package fx;
 
   // The nearest value in -limit .. limit.
   function automatic logic signed [63:0] limited(input logic signed [63:0] x, input logic [31:0] limit);
-    if (!beyond(x, limit)) limited = x;
+    logic [63:0] size;
+    size = x ^ {64{x[63]}};
+    if (size[63:32] == 32'd0 && {size[31:0], x[63]} <= {limit, 1'b0}) limited = x;
     else limited = x[63] ? -$signed({32'd0, limit}) : $signed({32'd0, limit});
   endfunction
 endpackage

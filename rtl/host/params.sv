@@ -88,7 +88,7 @@ module params #(
   logic loads;
   assign to    = write_i ? address_i : place_q;
   assign word  = write_i ? data_i : fetch_q[31:0];
-  assign loads = write_i || (fetched_q && !wrong);
+  assign loads = rst_ni && (write_i || (fetched_q && !wrong));
   logic [cfg::PARAMS_W-1:0] p_q = cfg::PARAMS_RESET;
   assign p_o = p_q;
   generate

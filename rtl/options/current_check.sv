@@ -35,7 +35,7 @@ module current_check (
   logic signed [18:0] resistive_q, across_q;
   logic signed [37:0] product;
   serial_multiplier #(.FactorW(21), .WordW(17)) u_serial_multiplier (
-      .clk_i(clk_i), .start_i(take), .factor_i(current_i), .word_i(resistance_i), .value_i('0), .hold_i(1'b0),
+      .clk_i(clk_i), .start_i(take), .factor_i(current_i), .word_i(resistance_i), .value_i(21'd0), .hold_i(1'b0),
       .product_o(product)
   );
   always_ff @(posedge clk_i) if (take) {resistive_q, across_q} <= {resistive_i, across_i};

@@ -47,7 +47,7 @@ module h_bridge_current (
       .integral_i(17'(cfg::CURRENT_INTEGRAL)), .limit_i(limit), .voltage_o(voltage), .resistive_o(resistive)
   );
   current_check u_current_check (
-      .clk_i(clk_i), .rst_ni(rst_ni), .armed_i(controls), .valid_i(measured), .resistive_i(resistive), .across_i('0),
+      .clk_i(clk_i), .rst_ni(rst_ni), .armed_i(controls), .valid_i(measured), .resistive_i(resistive), .across_i(19'd0),
       .current_i(21'(current)), .resistance_i(17'(cfg::CURRENT_RESISTANCE)), .margin_i(17'(cfg::CURRENT_MARGIN)),
       .missing_o(missing)
   );

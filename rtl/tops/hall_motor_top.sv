@@ -53,7 +53,7 @@ module hall_motor_top #(
       .snapshot_o(snapshot_o), .safety_o(safety_o), .word_o(word_o), .p_o(p), .zeroed_o(zeroed_o)
   );
   three_phase u_three_phase (
-      .clk_i(clk_i), .rst_ni(rst_ni), .p(p), .drive_i(drive), .bridge_o(bridge), .count_i('0),
+      .clk_i(clk_i), .rst_ni(rst_ni), .p(p), .drive_i(drive), .bridge_o(bridge), .count_i(32'd0),
       .offset_i(p.commutation_offset + angle), .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
       .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o), .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o)
   );

@@ -339,8 +339,9 @@ TEST_CASE("calm clocks close no gates, whatever the limit of the speed") {
       write(tried, Lever::A::overspeed,
             static_cast<std::uint32_t>(size + off < 0 ? 0 : size + off));
       if (!tried.out().gates_enable) continue;
-      const bool said = tried.calm(in, 40);
-      for (int k = 0; k < 40; ++k) tried.clock(in);
+      const int until_duty = tried.duty_clock() - 1;
+      const bool said = tried.calm(in, until_duty);
+      for (int k = 0; k < until_duty; ++k) tried.clock(in);
       calm += said;
       trips += !tried.out().gates_enable;
       REQUIRE_FALSE((said && !tried.out().gates_enable));
@@ -371,6 +372,6 @@ TEST_CASE("every fault trips in the same clock from event to event") {
   CHECK(met.flips > 200);
   // "Not calm" is always right, so how often it is said is all that there is to check of it.
   CAPTURE(met.armed_starts, met.armed_calm, met.idle_starts, met.idle_calm);
-  CHECK(met.armed_calm * 10 > met.armed_starts);
+  CHECK(met.armed_calm * 30 > met.armed_starts);
   CHECK(met.idle_calm * 10 > met.idle_starts);
 }

@@ -187,7 +187,7 @@ class Beside : public sc_core::sc_module {
     const auto& shown = board.out;
     const unsigned gates =
         (shown.gate_a_hi_o.read() ? 1u : 0u) | (shown.gate_c_lo_o.read() ? 32u : 0u);
-    if ((shown.current_o.read() != (static_cast<std::uint32_t>(o.current) & 0x7ffff) ||
+    if ((shown.current_o.read() != (static_cast<std::uint32_t>(o.current) & mask) ||
          gates != (o.gates & 33u) || shown.faults_o.read() != o.faults ||
          shown.word_data_o.read() != o.word_data)) {
       ++mismatches;

@@ -254,27 +254,6 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   refused("[absolute_encoder]", "lines = 1024\n[absolute_encoder]", "\"lines\"");
   refused("[absolute_encoder]", "[axes]\ncount = 2\n[absolute_encoder]",
           "has no pins for its lines");
-  // A table: its corrections are in the package and in the CRC, and only where there is an error.
-  const auto with = [&](const std::string& terms) {
-    return replaced(good, "error_mrad = []", "error_mrad = [" + terms + "]");
-  };
-  const Elaborated table =
-      elaborate(design_from_text(with("8.0, 0.0"), "t.toml"), shipped_registers());
-  const std::string corrected = cfg_package(table);
-  CHECK(contains(corrected, "int ABSOLUTE_TABLE = 1;"));
-  CHECK(contains(corrected, "8'd0: absolute_correction = 16'd64201;"));   // -8 mrad
-  CHECK(contains(corrected, "8'd128: absolute_correction = 16'd1335;"));  // 8 mrad
-  CHECK(contains(package, "int ABSOLUTE_TABLE = 0;"));
-  CHECK_FALSE(contains(package, "8'd0: absolute_correction"));
-  // A slope of 0.4 makes the readings of a motion faster by 1/0.6: 256.003 counts, and 2.
-  CHECK(contains(cfg_package(elaborate(design_from_text(with("0, 0, 0, 0, 0, 0, 0, 100"), "t.toml"),
-                                       shipped_registers())),
-                 "ABSOLUTE_JUMP_STEP = 259;"));
-  CHECK(design_crc(table) != design_crc(shipped("lever_absolute")));
-  CHECK(contains(design_error(with("8.0")), "1 numbers are no cosines and sines"));
-  CHECK(contains(design_error(with("191, 0")), "error_mrad"));
-  CHECK(contains(design_error(with("140, 140")), "add up to 198 mrad"));
-  CHECK(contains(design_error(with("0, 0, 0, 0, 0, 0, 0, 130")), "a slope of 520 mrad"));
   const auto refused_alone = [&](const std::string& text, const char* message) {
     const Design d = design_from_text(text, "changed.toml");
     CHECK_THROWS_WITH(check_absolute_encoder(d), Catch::Contains(message));
@@ -284,7 +263,6 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   std::string fine = replaced(replaced(good, "\"spi\"", "\"biss\""), "bits = 14", "bits = 21");
   fine = replaced(fine, "diagnosis", "# diagnosis");
   refused_alone(fine, "the velocity's window by 32767 counts");
-  refused_alone(replaced(fine, "error_mrad = []", "error_mrad = [1, 1]"), "too coarse for 21 bits");
 }
 
 TEST_CASE("three phases: the words of the commutation, and what they refuse", "[reader]") {

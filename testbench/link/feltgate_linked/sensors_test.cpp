@@ -48,7 +48,7 @@ struct Watch {
   const char* operator()(const LinkedIn&, const Vfeltgate_linked&, const Twin& twin, bool) {
     const CoreOut& out = twin.out().core;
     if (out.gates_enable) seen->enabled.at(cycle);
-    seen->current = std::ldexp(out.current, -17);
+    seen->current = std::ldexp(out.current, 1 - D::f.current.width());
     if (out.first_fault != 0) seen->fault.at(cycle), seen->first_fault = out.first_fault;
     if (out.current_clock && !clock_was) ++seen->modulator_clocks, seen->current_clock.at(cycle);
     if (out.heartbeat != beat_was) ++seen->beats, seen->beat.at(cycle);

@@ -36,6 +36,7 @@ module values_proof (
       rounds: assert (cfg::ROUNDING == 0 ? rest > -64'sd16 && rest <= 64'sd16 :
                       cfg::ROUNDING == 1 ? rest > -64'sd32 && rest <= 64'sd0 :
                       rest >= -64'sd16 && rest <= 64'sd16 && (rest != 64'sd16 && rest != -64'sd16 || (rounded & 64'sd1) == '0));
+      one_rounding: assert (fx::add_rounded(64'sd0, x, Drop) == (x >>> Drop) + $signed({63'd0, fx::rounds_up(x, Drop, x[Drop])}));
       rounds_off: cover (rest == -64'sd7);
       limits_down: cover (x < -limit);
     end

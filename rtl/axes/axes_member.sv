@@ -61,7 +61,7 @@ module axes_member #(
     output logic [ 4:0] first_fault_o,
     output logic        armed_o,
     output logic        gates_enable_o,
-    output logic [cfg::DUTY_W-1:0]     duty_active_o,
+    output logic signed [cfg::DUTY_W-1:0] duty_active_o,
     output logic        word_valid_o,
     output logic [ 5:0] word_slot_o,
     output logic [31:0] word_data_o

@@ -108,10 +108,16 @@ module scene (
   logic [15:0] quotient;
   logic divided, far_q, inside_core;
   assign inside_core = core != '0 && !fx::beyond(64'(whole), 32'(core));
-  divider u_divider (
-      .clk_i(clk_i), .rst_ni(rst_ni), .start_i(at[4] && charge),
-      .dividend_i(strength), .divisor_i(square_q), .quotient_o(quotient), .valid_o(divided)
-  );
+  generate
+  if (cfg::SCENE_MASK[map::SCENE_CHARGE_ATTRACT] || cfg::SCENE_MASK[map::SCENE_CHARGE_REPEL]) begin : g_charge
+    divider u_divider (
+        .clk_i(clk_i), .rst_ni(rst_ni), .start_i(at[4] && charge),
+        .dividend_i(strength), .divisor_i(square_q), .quotient_o(quotient), .valid_o(divided)
+    );
+  end else begin : g_no_charge
+    assign {divided, quotient} = '0;
+  end
+  endgenerate
 
   // The side from which a lever came into the membrane.
   logic above, outside, seen_q, from_above_q;

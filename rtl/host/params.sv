@@ -27,10 +27,10 @@ module params #(
 );
   // Bit k of the check is the parity of every fourth bit from bit k on, two of them inverted: it
   // detects a flipped bit, and a memory that reads all 0 or all 1.
-  function automatic logic [3:0] check_of(input logic [31:0] word);
+  function automatic logic [3:0] check_of(input logic [31:0] value);
     logic [15:0] half;
     logic [7:0] quarter;
-    half     = word[31:16] ^ word[15:0];
+    half     = value[31:16] ^ value[15:0];
     quarter  = half[15:8] ^ half[7:0];
     check_of = quarter[7:4] ^ quarter[3:0] ^ 4'b0101;
   endfunction
@@ -88,7 +88,7 @@ module params #(
   logic loads;
   assign to    = write_i ? address_i : place_q;
   assign word  = write_i ? data_i : fetch_q[31:0];
-  assign loads = rst_ni && (write_i || (fetched_q && !wrong));
+  assign loads = write_i || (fetched_q && !wrong);
   logic [cfg::PARAMS_W-1:0] p_q = cfg::PARAMS_RESET;
   assign p_o = p_q;
   generate

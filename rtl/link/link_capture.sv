@@ -157,7 +157,7 @@ module link_capture #(
     columns = '0;
     for (int k = 0; k < Words; k++) begin
       if (4'(k) == word_number_i) column = columns;
-      if (words_q[k] && !columns[ColumnBits]) columns = columns + 1'b1;
+      columns = columns + (ColumnBits + 1)'(words_q[k]);
     end
   end
 
@@ -188,7 +188,7 @@ module link_capture #(
       end
       if (whole) begin
         taking_q  <= 1'b0;
-        columns_q <= columns;
+        columns_q <= columns[ColumnBits] ? (ColumnBits + 1)'(1 << ColumnBits) : columns;
         row_q     <= row_q + 1'b1;
         rows_q    <= rows_q + 1'b1;
         left_q    <= left_q - 1'b1;

@@ -57,8 +57,8 @@ module commutation #(
 
   // Nodes 30/16 degrees apart, in 2^-17 of the amplitude: f(angle) * 2^17 * (1 + h^2/16) * 256/255 + 1/2, rounded, with
   // h = 30/16 degrees. The chords between them are as far above the curve as below it, and eight bits weigh 255/256.
-  function automatic logic [16:0] cosine(input logic [4:0] at);  // cos/2
-    case (at)
+  function automatic logic [16:0] cosine(input logic [4:0] n);  // cos/2
+    case (n)
       5'd0:    cosine = 17'd65798;
       5'd1:    cosine = 17'd65763;
       5'd2:    cosine = 17'd65657;
@@ -78,8 +78,8 @@ module commutation #(
       default: cosine = 17'd56983;
     endcase
   endfunction
-  function automatic logic [16:0] sine(input logic [4:0] at);  // sin * sqrt(3)/2
-    case (at)
+  function automatic logic [16:0] sine(input logic [4:0] n);  // sin * sqrt(3)/2
+    case (n)
       5'd0:    sine = 17'd1;
       5'd1:    sine = 17'd3729;
       5'd2:    sine = 17'd7454;

@@ -69,7 +69,7 @@ module motor_heat (
       cooled_q <= cooled[SumW] ? '0 : cooled[SumW-1:0];
       square_q <= armed_i && !sum_q[SumW-1] ? cfg::CURRENT_SQUARED_W'(product >>> SquaredDrop) : '0;
     end
-    if (at[6] && rst_ni) sum_q <= cooled_q + SumW'(square_q);  // no reset clears it
+    if (at[6]) sum_q <= cooled_q + SumW'(square_q);
   end
 endmodule
 

@@ -61,14 +61,16 @@ target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_VERSION="${PROJ
 set(areas docs/verification/areas.json)
 set_property(DIRECTORY "${CMAKE_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${areas})
 file(READ "${CMAKE_SOURCE_DIR}/${areas}" figures)
-foreach(block dob lowpass)
+foreach(block observer velocity_estimator travel_window)
   string(JSON size ERROR_VARIABLE missing GET "${figures}" figures lever ${block} lut4_equivalents)
   if(missing)
     message(FATAL_ERROR "${areas}: no size of lever's ${block} (${missing}); run `feltgate synth --update`")
   endif()
-  string(TOUPPER ${block} upper)
-  target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_LUT4_${upper}=${size})
+  set(${block}_lut4 ${size})
 endforeach()
+math(EXPR lowpass_lut4 "${velocity_estimator_lut4} - ${travel_window_lut4}")  # what is left of it is its low-pass
+target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_LUT4_OBSERVER=${observer_lut4}
+  FELTGATE_LUT4_LOWPASS=${lowpass_lut4})
 
 # Constants of a motor from readings and recordings: the verbs calibrate and identify of a host.
 feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_traces Eigen3::Eigen

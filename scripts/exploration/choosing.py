@@ -227,7 +227,7 @@ class Choosing:
             return f"core, {name}", self.budget["figures"]["lever"][name]
         if self.question.of_block():
             return "core, its scenes", row.figures
-        alone = self.budget["scene_sets"]["lever"]["setpoint"]
+        alone = self.budget["figures"]["lever_law"]["core without read-back"]
         own = self.own_row.figures
         more = {k: int(row.figures[k]) - int(own[k]) for k in ("lut4_equivalents", "mult18", "bram")}
         return "core, set-point alone", {k: alone[k] + more[k] for k in more}

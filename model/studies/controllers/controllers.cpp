@@ -58,7 +58,7 @@ constexpr int observer_bits = Lever::f.observer.width();
 /// Of the observer (Ktn*I, g*Jn*w, a1), and from the torque to the current.
 constexpr int shared_multiplications = 3 + 1;
 /// LUT4 equivalents of the blocks of `lever`, measured: CMake reads docs/verification/areas.json.
-constexpr int dob_lut4 = FELTGATE_LUT4_DOB, lowpass_lut4 = FELTGATE_LUT4_LOWPASS;
+constexpr int observer_lut4 = FELTGATE_LUT4_OBSERVER, lowpass_lut4 = FELTGATE_LUT4_LOWPASS;
 
 constexpr double step_nm = 0.2;
 constexpr double wall_damping_nm_s_rad = 0.005;
@@ -150,7 +150,7 @@ namespace {
 template <class Law>
 Size with_law(int low_passes) {
   return {shared_multiplications + Law::multiplications, observer_bits + Law::state_bits,
-          dob_lut4 + low_passes * lowpass_lut4, dob_lut4};
+          observer_lut4 + low_passes * lowpass_lut4, observer_lut4};
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ Size with_law(int low_passes) {
 Size size_of(Kind kind) {
   switch (kind) {
     case Kind::observer:
-      return {shared_multiplications + 1, observer_bits, dob_lut4, dob_lut4};
+      return {shared_multiplications + 1, observer_bits, observer_lut4, observer_lut4};
     case Kind::feed_forward:
       return {1, 0, 0, 0};
     case Kind::pi:

@@ -184,6 +184,7 @@ class Beside : public sc_core::sc_module {
  private:
   void between() {
     const CoreOut& o = core_.out();
+    constexpr auto mask = static_cast<std::uint32_t>((1u << D::f.current.width()) - 1);
     const auto& shown = board.out;
     const unsigned gates =
         (shown.gate_a_hi_o.read() ? 1u : 0u) | (shown.gate_c_lo_o.read() ? 32u : 0u);

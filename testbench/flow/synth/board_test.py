@@ -14,7 +14,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from testing import ROOT, Scratch, script
+from testing import BUILD, ROOT, Scratch, script
 import synth_board
 from synth_tools import feeds
 
@@ -40,12 +40,13 @@ for name in re.findall(r"write_json (\\S+)", script):
     module = {"cells": cells, "netnames": nets, "ports": {}}
     open(name, "w").write(json.dumps({"modules": {"ulx3s": module, "tang_nano_9k": module}}))
 """
-GENERATE = """#!/usr/bin/env python3
+GENERATE = f"""#!/usr/bin/env python3
 import pathlib, re, sys
-word = lambda name: pathlib.Path(sys.argv[sys.argv.index(name) + 1])
+DESIGNS = {str(BUILD / 'designs')!r}
+""" + r"""word = lambda name: pathlib.Path(sys.argv[sys.argv.index(name) + 1])
 hz = re.search(r"^clock_hz = ([0-9_]+)", word("--design").read_text(), re.M)[1].replace("_", "")
 name = word("--design").name.split("_54mhz")[0].removesuffix(".toml")
-package = pathlib.Path(sys.argv[1], f"rtl/generated/{name}/cfg.sv").read_text()
+package = pathlib.Path(DESIGNS, name, "cfg.sv").read_text()
 word("--output").mkdir(parents=True, exist_ok=True)
 text = package.replace("CLOCK_HZ = 50000000;", f"CLOCK_HZ = {hz};")
 (word("--output") / "cfg.sv").write_text(text)

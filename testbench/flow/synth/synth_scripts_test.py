@@ -16,8 +16,8 @@ TOOLS = {"yosys": "yosys 0.70", "nextpnr": "nextpnr 0.11"}
 
 class Budget(Scratch):
     def grown(self, **changes):
-        budget = {"measured": TOOLS, "figures": {"lever": {"dob": ROW}}}
-        return synth_budget.compare(budget, {"lever": {"dob": ROW | changes}}, TOOLS)
+        budget = {"measured": TOOLS, "figures": {"lever": {"observer": ROW}}}
+        return synth_budget.compare(budget, {"lever": {"observer": ROW | changes}}, TOOLS)
 
     def test_same_figures_pass(self):
         self.assertEqual(self.grown(), [])
@@ -41,8 +41,8 @@ class Budget(Scratch):
         synth_budget.write(path, merged)
         self.assertEqual(synth_budget.read(path), merged)
         # A later run of another row keeps this one.
-        again = synth_budget.merge(synth_budget.read(path), {"lever": {"dob": ROW}}, TOOLS)
-        self.assertEqual(set(again["figures"]["lever"]), {"dob", *measured["lever"]})
+        again = synth_budget.merge(synth_budget.read(path), {"lever": {"observer": ROW}}, TOOLS)
+        self.assertEqual(set(again["figures"]["lever"]), {"observer", *measured["lever"]})
 
 
 class Wrapper(unittest.TestCase):

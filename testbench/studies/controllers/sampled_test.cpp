@@ -50,7 +50,9 @@ constexpr Motion ramp{0, kRamp_rad_s2, 0.4};
 template <class D>
 std::vector<std::int16_t> read_by(const Motion& motion) {
   constexpr int sample = axis::TickCounter::sample_clock;
-  axis::Absolute position(axis::Design::of<D>());
+  axis::Design design = axis::Design::of<D>();
+  design.constants["ABSOLUTE_FRAMING"] = D::absolute_framing;
+  axis::Absolute position(design);
   AbsoluteSensor sensor(test::absolute_parameters<D>());
   std::vector<std::int16_t> out;
   Clock now = 0;

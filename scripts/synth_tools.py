@@ -220,8 +220,9 @@ class Tools:
     def ports(self, top, read, parameters=()):
         """(name, direction, width) of every port of TOP, with those of the PARAMETERS that are numbers."""
         name = f"{top}_ports"
-        values = [f" -chparam {n} {v}" for n, v in dict(parameters).items() if v.isdigit()]
-        script = [*read, f"hierarchy -top {top}{''.join(values)}", "proc", f"write_json {name}.json"]
+        # Not by hierarchy -chparam: Yosys 0.70 gives a module with arrays at its parts a second name, and stops.
+        values = [f"chparam -set {n} {v} {top}" for n, v in dict(parameters).items() if v.isdigit()]
+        script = [*read, *values, f"hierarchy -top {top}", "proc", f"write_json {name}.json"]
         self.run_yosys(name, script, [f"{name}.json"])
         modules = json.loads((self.folder / f"{name}.json").read_text(encoding="utf-8"))["modules"]
         found = next(m for m in modules.values() if int(m["attributes"].get("top", "0"), 2))

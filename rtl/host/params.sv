@@ -52,30 +52,30 @@ module params #(
 
   // The word that is fetched. Bank 15, which no scene has, stands for the scene of the tick.
   localparam logic [4*5-1:0] ScenePlaces = {5'd10, 5'd6, 5'd3, 5'd2};  // after place 1
-  logic [8:0] address, place_q;
+  logic [8:0] address, place;
   logic [5:0] next_q;
   logic [35:0] fetch_q;
   logic of_scene, fetched_q, wrong, warm_q;
-  logic [4:0] place;
+  logic [4:0] of_bank;
   assign of_scene = clock_i < cfg::TICK_W'(5);
   always_comb begin
     case (clock_i[2:0])
-      3'd0:    place = 5'd1;
-      3'd1:    place = ScenePlaces[4:0];
-      3'd2:    place = ScenePlaces[9:5];
-      3'd3:    place = ScenePlaces[14:10];
-      default: place = ScenePlaces[19:15];
+      3'd0:    of_bank = 5'd1;
+      3'd1:    of_bank = ScenePlaces[4:0];
+      3'd2:    of_bank = ScenePlaces[9:5];
+      3'd3:    of_bank = ScenePlaces[14:10];
+      default: of_bank = ScenePlaces[19:15];
     endcase
   end
-  assign address = of_scene ? {scene_i, place} : {3'd0, next_q};
+  assign address = of_scene ? {scene_i, of_bank} : {3'd0, next_q};
+  assign place   = of_scene ? {4'd15, of_bank} : address;  // of its register
   always_ff @(posedge clk_i) fetch_q <= ram[address];
   assign wrong = fetch_q[35:32] != check_of(fetch_q[31:0]);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {place_q, next_q, fetched_q, warm_q, word_error_o} <= '0;
+      {next_q, fetched_q, warm_q, word_error_o} <= '0;
     end else begin
-      warm_q  <= 1'b1;
-      place_q <= of_scene ? {4'd15, place} : {3'd0, next_q};
+      warm_q       <= 1'b1;
       if (!of_scene) next_q <= next_q + 1'b1;
       fetched_q    <= warm_q && !write_i;  // a word fetched during a write may be anything
       word_error_o <= fetched_q && wrong;
@@ -83,12 +83,10 @@ module params #(
   end
 
   // Into its register: a word that is written, or the one that was fetched.
-  logic [8:0] to;
   logic [31:0] word;
-  logic loads;
-  assign to    = write_i ? address_i : place_q;
-  assign word  = write_i ? data_i : fetch_q[31:0];
-  assign loads = write_i || (fetched_q && !wrong);
+  logic good;
+  assign word = write_i ? data_i : fetch_q[31:0];
+  assign good = fetched_q && !wrong;
   logic [cfg::PARAMS_W-1:0] p_q = cfg::PARAMS_RESET;
   assign p_o = p_q;
   generate
@@ -97,7 +95,9 @@ module params #(
     localparam int Low = 32'(cfg::WORD_LOW[16*n+:16]);
     localparam int Bits = 32'(cfg::WORD_BITS[16*n+:16]);
     localparam logic [8:0] At = 9'(cfg::WORD_ADDRESS[16*n+:16]);
-    always @(posedge clk_i) if (loads && to == At) p_q[Low+:Bits] <= word[Bits-1:0];
+    logic fetched_here_q;
+    always_ff @(posedge clk_i) fetched_here_q <= place == At;
+    always @(posedge clk_i) if (write_i ? address_i == At : good && fetched_here_q) p_q[Low+:Bits] <= word[Bits-1:0];
   end
   endgenerate
 

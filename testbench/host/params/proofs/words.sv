@@ -42,7 +42,9 @@ module words_proof (
   (* hierconn *) wire [35:0] \u_dut.fetch_q ;
   (* hierconn *) wire [35:0] \u_dut.read_q ;
   (* hierconn *) wire [8:0] \u_dut.address ;
-  (* hierconn *) wire [8:0] \u_dut.place_q ;
+  (* hierconn *) wire [8:0] \u_dut.place ;
+  logic [8:0] place_q;  // of the word that was fetched
+  always_ff @(posedge clk_i) place_q <= \u_dut.place ;
   (* hierconn *) wire \u_dut.fetched_q ;
 
   // Check bit k is the parity of bits k, k + 4, ... of the word, inverted for k = 0 and 2.
@@ -125,7 +127,7 @@ module words_proof (
     if (past_ok_q && rst_ni) begin
       scene_gets_the_word: assert (broke_q || !whole_q || clock < cfg::TICK_W'(6) || !scene_stale);
       inside_place: assert (!whole_q || clock == '0 || clock > cfg::TICK_W'(5) ||
-                            ( \u_dut.place_q == {4'd15, place} && \u_dut.fetched_q && fetch_q == {scene, place}));
+                            (place_q == {4'd15, place} && \u_dut.fetched_q && fetch_q == {scene, place}));
       inside_loaded: assert (broke_q || !whole_q || clock == '0 || !scene_stale ||
           !((word_q[4:0] == 5'd1 && clock > 1) || (word_q[4:0] == 5'd2 && clock > 2) || (word_q[4:0] == 5'd3 && clock > 3) ||
             (word_q[4:0] == 5'd6 && clock > 4)));

@@ -260,7 +260,7 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   };
   refused_alone(replaced(replaced(good, "m1 = 384", "estimator = \"mt\""), "n = 0 ", "# n = 0"),
                 "M/T needs the clocks of edges");
-  std::string fine = replaced(replaced(good, "\"spi\"", "\"biss\""), "bits = 14", "bits = 21");
+  std::string fine = replaced(replaced(good, "\"spi\"", "\"ssi\""), "bits = 14", "bits = 21");
   fine = replaced(fine, "diagnosis", "# diagnosis");
   refused_alone(fine, "the velocity's window by 32767 counts");
 }

@@ -430,6 +430,7 @@ TEST_CASE("limits: a negative limit of the supervisor takes the torque away") {
       // After power-up the sum is half the design's budget, and it grows.
       s.write(A::i2t_budget, D::i2t_start + 1'000'000);
       while (s.out().gates_enable && ticks[negative] < 5'000) s.ticks(1), ++ticks[negative];
+      CAPTURE(ticks[0], ticks[1], s.out().current_ref, D::i2t_start);
       REQUIRE(s.out().first_fault == static_cast<int>(Fault::i2t));
       s.play();
     }

@@ -16,7 +16,6 @@
 #include "feltgate/generated/lever_absolute.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/reference/chain.hpp"
-#include "twins.hpp"
 
 using namespace feltgate;
 
@@ -46,14 +45,24 @@ struct Motion {
 Motion steady(double rad_s) { return {rad_s, 0, rad_s < 1 ? 0.6 : 0.3}; }
 constexpr Motion ramp{0, kRamp_rad_s2, 0.4};
 
+/// A design's data with the framing of D.
+template <class D>
+axis::Design design_of_reading() {
+  axis::Design design = axis::Design::of<D>();
+  design.constants["ABSOLUTE_FRAMING"] = D::absolute_framing;
+  return design;
+}
+template <class D>
+AbsoluteEncoder::Parameters parameters_of_reading() {
+  return axis::Absolute::parameters(design_of_reading<D>());
+}
+
 /// What the core's decoder has as travel at the sample of each tick, clock by clock of its lines.
 template <class D>
 std::vector<std::int16_t> read_by(const Motion& motion) {
   constexpr int sample = axis::TickCounter::sample_clock;
-  axis::Design design = axis::Design::of<D>();
-  design.constants["ABSOLUTE_FRAMING"] = D::absolute_framing;
-  axis::Absolute position(design);
-  AbsoluteSensor sensor(test::absolute_parameters<D>());
+  axis::Absolute position(design_of_reading<D>());
+  AbsoluteSensor sensor(parameters_of_reading<D>());
   std::vector<std::int16_t> out;
   Clock now = 0;
   for (int k = 0; k < motion.ticks(); ++k) {
@@ -169,9 +178,9 @@ TEST_CASE("sampled velocity: an absolute encoder's, with closed forms") {
   const auto age_s = [](const AbsoluteEncoder::Parameters& p, double held_ticks) {
     return (std::ceil(p.reading_clocks() / 50.0) + (held_ticks - 1) / 2) * kTick_s;
   };
-  const double of_ssi = age_s(test::absolute_parameters<BySsi>(), kPeriod_ticks);
+  const double of_ssi = age_s(parameters_of_reading<BySsi>(), kPeriod_ticks);
   // One reading in 16 is held twice as long.
-  const double of_spi = age_s(test::absolute_parameters<LeverAbsolute>(), kPeriod_ticks * 18.0 / 16);
+  const double of_spi = age_s(parameters_of_reading<LeverAbsolute>(), kPeriod_ticks * 18.0 / 16);
   check(LeverAbsolute{}, spi, of_spi, true);
   const auto four = check(ByWindow<BySsi, 384, 0>{}, ssi, of_ssi, false);
   check(ByWindow<BySsi, 96, 2>{}, ssi, of_ssi, false);

@@ -204,7 +204,7 @@ std::string report_text(const Report& r) {
   }
   return s + notes_text(r) +
          fmt::format(
-             "gates, at every rate: {}engine 1265 LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
+             "gates, at every rate: {}engine 1268 LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
              r.block_gates.empty() ? "" : "block " + r.block_gates + "; ",
              several ? " with its glue to one axis" : "");
 }

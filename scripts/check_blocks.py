@@ -132,7 +132,8 @@ def check_defects(root):
         text = rules.read_text(encoding="utf-8") if rules.exists() else ""
         built = "WITH_DEFECTS|feltgate_defect_"
         if rules == room:  # it names the file, or a module does; or its calls for the block say so; or it names the defect
-            modules = "".join(module.read_text(encoding="utf-8") for module in (*file.parent.glob("*.cmake"), *file.parent.glob("*_test.py")))
+            beside = (*file.parent.glob("*.cmake"), *file.parent.glob("*_test.py"))
+            modules = "".join(module.read_text(encoding="utf-8") for module in beside)
             own = rf"feltgate_block_test\((?:{file.parent.name}|\$\{{block\}})\s[^)]*"
             calls = "".join(re.findall(own, text))
             if f"{file.parent.name}/{file.name}" in text or f"/{file.name}" in modules:

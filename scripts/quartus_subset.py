@@ -15,7 +15,7 @@ from pathlib import Path
 
 from pyslang import SourceManager, syntax
 
-INCLUDED = [Path(__file__).resolve().parents[1] / "rtl/tops"]  # device.svh
+INCLUDED = Path(__file__).resolve().parents[1] / "rtl/tops"  # device.svh
 
 Kind = syntax.SyntaxKind
 
@@ -121,8 +121,7 @@ def check(path):
     # In a line of its own before the first: what is for simulation only is not looked at.
     text = "`define SYNTHESIS\n" + path.read_text(encoding="utf-8")
     sources = SourceManager()
-    for folder in INCLUDED:
-        sources.addUserDirectories(str(folder))
+    sources.addUserDirectories(str(INCLUDED))
     tree = syntax.SyntaxTree.fromText(text, sources, str(path))
     nodes, functions, found = [], set(), []
 

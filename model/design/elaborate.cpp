@@ -397,7 +397,8 @@ Format Word::field() const {
   if (p.kind == "coefficient" || p.kind == "signed") {
     return {format.sign, coefficient_bits - format.fraction, format.fraction};
   }
-  if (p.kind == "limit") return {0, format.integer, format.fraction};
+  // The top bit says that a word is negative, also of a format without a sign.
+  if (p.kind == "limit") return {0, format.width() - 1 - format.fraction, format.fraction};
   if (p.kind == "integer") return {0, p.bits, 0};
   return format;
 }

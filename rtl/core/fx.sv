@@ -3,7 +3,8 @@
 //
 // Fixed-point arithmetic of all blocks. A value of any format comes sign-extended to 64 bits; the
 // caller casts the result to the width of its register, and synthesis removes the bits that nobody
-// reads. No function calls another one, which Quartus refuses. docs/fixed-point.md
+// reads. No function calls another one, which Quartus is said to refuse. docs/boards/quartus.md,
+// docs/fixed-point.md
 
 `default_nettype none
 

@@ -49,13 +49,11 @@ module motor_heat (
   logic [SumW-1:0] sum_q = SumW'(cfg::I2T_START);
   logic [SumW-1:0] cooled_q;
   logic [SumW:0] cooled;
-  logic [31:0] nominal;
   logic [cfg::CURRENT_SQUARED_W-1:0] square_q;
   logic hot_q;
-  assign nominal = p.nominal_current_squared[31] ? 32'd0 : p.nominal_current_squared;  // a negative word cools nothing
-  assign cooled  = {1'b0, sum_q} - (SumW + 1)'(nominal);
-  assign back    = PartW'(fx::scale(product, PartF - cfg::VELOCITY_F - cfg::P_EMF_OVER_RESISTANCE_F));
-  assign trip_o  = at[6] && hot_q;
+  assign cooled = {1'b0, sum_q} - (SumW + 1)'(p.nominal_current_squared);
+  assign back   = PartW'(fx::scale(product, PartF - cfg::VELOCITY_F - cfg::P_EMF_OVER_RESISTANCE_F));
+  assign trip_o = at[6] && hot_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {at, resistive_q, current_o, hot_q} <= '0;

@@ -45,23 +45,11 @@ target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
 # Eigen: its tests run within 5 % as long, and it compiles in three quarters of the time.
 target_compile_options(feltgate_stability PRIVATE -O1)
 
-# Scenes at several rates.
-feltgate_library(feltgate_rates studies/rates feltgate_stability feltgate_loop feltgate_law_loop
-  feltgate_axes_loop)
-target_link_libraries(feltgate_rates PRIVATE nlohmann_json::nlohmann_json)
-target_compile_definitions(feltgate_rates PRIVATE
-  FELTGATE_VERSION="${PROJECT_VERSION}")
-target_compile_options(feltgate_rates PRIVATE -O1)
-
-# The observer beside other controllers.
-feltgate_library(feltgate_controllers studies/controllers feltgate_stability feltgate_loop)
-target_link_libraries(feltgate_controllers PRIVATE nlohmann_json::nlohmann_json)
-target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 # Sizes of the blocks of `lever`, as `feltgate synth --update` wrote them.
 set(areas docs/verification/areas.json)
 set_property(DIRECTORY "${CMAKE_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${areas})
 file(READ "${CMAKE_SOURCE_DIR}/${areas}" figures)
-foreach(block observer velocity_estimator travel_window)
+foreach(block observer velocity_estimator travel_window axes_engine)
   string(JSON size ERROR_VARIABLE missing GET "${figures}" figures lever ${block} lut4_equivalents)
   if(missing)
     message(FATAL_ERROR "${areas}: no size of lever's ${block} (${missing}); run `feltgate synth --update`")
@@ -69,8 +57,20 @@ foreach(block observer velocity_estimator travel_window)
   set(${block}_lut4 ${size})
 endforeach()
 math(EXPR lowpass_lut4 "${velocity_estimator_lut4} - ${travel_window_lut4}")  # what is left of it is its low-pass
-target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_LUT4_OBSERVER=${observer_lut4}
-  FELTGATE_LUT4_LOWPASS=${lowpass_lut4})
+
+# Scenes at several rates.
+feltgate_library(feltgate_rates studies/rates feltgate_stability feltgate_loop feltgate_law_loop
+  feltgate_axes_loop)
+target_link_libraries(feltgate_rates PRIVATE nlohmann_json::nlohmann_json)
+target_compile_definitions(feltgate_rates PRIVATE
+  FELTGATE_VERSION="${PROJECT_VERSION}" FELTGATE_LUT4_ENGINE=${axes_engine_lut4})
+target_compile_options(feltgate_rates PRIVATE -O1)
+
+# The observer beside other controllers.
+feltgate_library(feltgate_controllers studies/controllers feltgate_stability feltgate_loop)
+target_link_libraries(feltgate_controllers PRIVATE nlohmann_json::nlohmann_json)
+target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}"
+  FELTGATE_LUT4_OBSERVER=${observer_lut4} FELTGATE_LUT4_LOWPASS=${lowpass_lut4})
 
 # Constants of a motor from readings and recordings: the verbs calibrate and identify of a host.
 feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_traces Eigen3::Eigen

@@ -125,9 +125,7 @@ if it has a mass.
 Exit code: 0 bits and eigenvalues agree within 5 % (where the swing is large enough), 1
 otherwise, 2 unusable input. docs/speed-for-accuracy.md explains every column.)");
   defaulted(*sub, "design", a->design, "SCENE|DESIGN",
-            "a scene, in vectors/scenes or a path; or a design that was built in, by its "
-            "name in rtl/designs; or a file, whose bits are "
-            "those of a built-in design of the same structure with its cut-offs");
+            "a scene, in vectors/scenes or a path; or a design, in rtl/designs or a path");
   defaulted(*sub, "--linear-plant", a->linear, "PLANT",
             "plant of the borders, in vectors/plants or a path: without friction, dead "
             "voltage and dead time");

@@ -41,12 +41,6 @@ BitLoop::BitLoop(const design::Elaborated& design, const BitLoopSetting& s)
   in_.armed = true;
   in_.scene = design.registers.scene_number(own ? "wall" : "setpoint");
   const auto set = [&](const char* name, double v) { chain_->set_parameter(address(name), v); };
-  // A design file may differ from the built-in design in what registers hold.
-  const DesignInfo built = design::info_of(design);
-  for (const design::Word& w : design.words) {
-    const ParameterInfo* p = built.find(w.parameter.name);
-    if (p != nullptr && p->raw != w.raw) set(w.parameter.name.c_str(), w.quantised());
-  }
   if (own) {
     set("wall_contact", 0);
     set("wall_stiffness", s.wall.stiffness_nm_rad * count_rad_);

@@ -227,6 +227,7 @@ package cfg;
       9'd7: parameter_above = {1'd0, 32'hfffe0000};  // emf_over_resistance
       9'd8: parameter_above = {1'd0, 32'hfffe0000};  // torque_constant
       9'd9: parameter_above = {1'd0, 32'hfffe0000};  // inertia_gain
+      9'd17: parameter_above = {1'd0, 32'h80000000};  // nominal_current_squared
       9'd15: parameter_above = {1'd0, 32'hfffe0000};  // observer_a1
       9'd16: parameter_above = {1'd0, 32'h80000000};  // overspeed
       9'd19: parameter_above = {1'd0, 32'h80000000};  // polarity_speed
@@ -282,18 +283,18 @@ package cfg;
   // The words as the blocks take them. Of each register of params_t, from the first on: its
   // lowest bit, its bits, the address of its word.
   localparam int WORDS = 44;
-  localparam logic [703:0] WORD_LOW = {16'd0, 16'd21, 16'd39, 16'd56, 16'd88, 16'd114, 16'd146, 16'd178, 16'd180, 16'd188, 16'd196, 16'd216, 16'd240, 16'd252, 16'd269, 16'd288, 16'd307, 16'd324, 16'd341, 16'd362, 16'd382, 16'd396, 16'd416, 16'd436, 16'd453, 16'd470, 16'd487, 16'd513, 16'd533, 16'd552, 16'd572, 16'd590, 16'd607, 16'd623, 16'd644, 16'd675, 16'd707, 16'd738, 16'd755, 16'd787, 16'd804, 16'd821, 16'd838, 16'd855};
-  localparam logic [703:0] WORD_BITS = {16'd21, 16'd18, 16'd17, 16'd32, 16'd26, 16'd32, 16'd32, 16'd2, 16'd8, 16'd8, 16'd20, 16'd24, 16'd12, 16'd17, 16'd19, 16'd19, 16'd17, 16'd17, 16'd21, 16'd20, 16'd14, 16'd20, 16'd20, 16'd17, 16'd17, 16'd17, 16'd26, 16'd20, 16'd19, 16'd20, 16'd18, 16'd17, 16'd16, 16'd21, 16'd31, 16'd32, 16'd31, 16'd17, 16'd32, 16'd17, 16'd17, 16'd17, 16'd17, 16'd17};
+  localparam logic [703:0] WORD_LOW = {16'd0, 16'd21, 16'd39, 16'd56, 16'd88, 16'd114, 16'd146, 16'd178, 16'd180, 16'd188, 16'd196, 16'd216, 16'd240, 16'd252, 16'd269, 16'd288, 16'd307, 16'd324, 16'd341, 16'd362, 16'd382, 16'd396, 16'd416, 16'd436, 16'd453, 16'd470, 16'd487, 16'd513, 16'd533, 16'd552, 16'd572, 16'd590, 16'd607, 16'd623, 16'd644, 16'd675, 16'd707, 16'd738, 16'd755, 16'd786, 16'd803, 16'd820, 16'd837, 16'd854};
+  localparam logic [703:0] WORD_BITS = {16'd21, 16'd18, 16'd17, 16'd32, 16'd26, 16'd32, 16'd32, 16'd2, 16'd8, 16'd8, 16'd20, 16'd24, 16'd12, 16'd17, 16'd19, 16'd19, 16'd17, 16'd17, 16'd21, 16'd20, 16'd14, 16'd20, 16'd20, 16'd17, 16'd17, 16'd17, 16'd26, 16'd20, 16'd19, 16'd20, 16'd18, 16'd17, 16'd16, 16'd21, 16'd31, 16'd32, 16'd31, 16'd17, 16'd31, 16'd17, 16'd17, 16'd17, 16'd17, 16'd17};
   localparam logic [703:0] WORD_ADDRESS = {16'd490, 16'd486, 16'd483, 16'd482, 16'd481, 16'd13, 16'd26, 16'd41, 16'd38, 16'd37, 16'd51, 16'd46, 16'd45, 16'd40, 16'd39, 16'd35, 16'd50, 16'd34, 16'd33, 16'd56, 16'd43, 16'd36, 16'd30, 16'd29, 16'd28, 16'd27, 16'd25, 16'd24, 16'd32, 16'd31, 16'd23, 16'd22, 16'd21, 16'd20, 16'd19, 16'd18, 16'd16, 16'd15, 16'd17, 16'd9, 16'd8, 16'd7, 16'd5, 16'd4};
-  localparam int PARAMS_W = 872;
-  localparam logic [871:0] PARAMS_RESET = {17'd67092, 17'd90394, 17'd112812, 17'd122683, 17'd83886, 32'd92, 17'd67092, 31'd209715200, 32'd1894400000, 31'd6291456, 21'd314573, 16'd6000, 17'd81789, 18'd0, 20'd0, 19'd157, 20'd13107, 26'd8, 17'd90394, 17'd70017, 17'd104304, 20'd13107, 20'd6554, 14'd4883, 20'd3277, 21'd896532, 17'd95027, 17'd95027, 19'd13351, 19'd184400, 17'd88681, 12'd930, 24'd100000, 20'd2097, 8'd157, 8'd39, 2'd2, 32'd2883584, 32'd0, 26'd0, 32'd0, 17'd0, 18'd0, 21'd0};
+  localparam int PARAMS_W = 871;
+  localparam logic [870:0] PARAMS_RESET = {17'd67092, 17'd90394, 17'd112812, 17'd122683, 17'd83886, 31'd92, 17'd67092, 31'd209715200, 32'd1894400000, 31'd6291456, 21'd314573, 16'd6000, 17'd81789, 18'd0, 20'd0, 19'd157, 20'd13107, 26'd8, 17'd90394, 17'd70017, 17'd104304, 20'd13107, 20'd6554, 14'd4883, 20'd3277, 21'd896532, 17'd95027, 17'd95027, 19'd13351, 19'd184400, 17'd88681, 12'd930, 24'd100000, 20'd2097, 8'd157, 8'd39, 2'd2, 32'd2883584, 32'd0, 26'd0, 32'd0, 17'd0, 18'd0, 21'd0};
   typedef struct packed {
     logic [16:0] velocity_a1;
     logic [16:0] inverse_resistance;
     logic [16:0] emf_over_resistance;
     logic [16:0] torque_constant;
     logic [16:0] inertia_gain;
-    logic [31:0] nominal_current_squared;
+    logic [30:0] nominal_current_squared;
     logic [16:0] observer_a1;
     logic [30:0] overspeed;
     logic [31:0] i2t_budget;

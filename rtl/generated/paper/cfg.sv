@@ -225,6 +225,7 @@ package cfg;
       9'd7: parameter_above = {1'd0, 32'hfffe0000};  // emf_over_resistance
       9'd8: parameter_above = {1'd0, 32'hfffe0000};  // torque_constant
       9'd9: parameter_above = {1'd0, 32'hfffe0000};  // inertia_gain
+      9'd17: parameter_above = {1'd0, 32'h80000000};  // nominal_current_squared
       9'd15: parameter_above = {1'd0, 32'hfffe0000};  // observer_a1
       9'd16: parameter_above = {1'd0, 32'h80000000};  // overspeed
       9'd19: parameter_above = {1'd0, 32'h80000000};  // polarity_speed
@@ -280,18 +281,18 @@ package cfg;
   // The words as the blocks take them. Of each register of params_t, from the first on: its
   // lowest bit, its bits, the address of its word.
   localparam int WORDS = 42;
-  localparam logic [671:0] WORD_LOW = {16'd0, 16'd21, 16'd39, 16'd56, 16'd88, 16'd114, 16'd116, 16'd124, 16'd132, 16'd152, 16'd176, 16'd188, 16'd205, 16'd224, 16'd243, 16'd260, 16'd277, 16'd298, 16'd318, 16'd332, 16'd352, 16'd372, 16'd389, 16'd406, 16'd423, 16'd451, 16'd471, 16'd490, 16'd510, 16'd528, 16'd545, 16'd561, 16'd582, 16'd613, 16'd645, 16'd676, 16'd693, 16'd725, 16'd742, 16'd759, 16'd776, 16'd793};
-  localparam logic [671:0] WORD_BITS = {16'd21, 16'd18, 16'd17, 16'd32, 16'd26, 16'd2, 16'd8, 16'd8, 16'd20, 16'd24, 16'd12, 16'd17, 16'd19, 16'd19, 16'd17, 16'd17, 16'd21, 16'd20, 16'd14, 16'd20, 16'd20, 16'd17, 16'd17, 16'd17, 16'd28, 16'd20, 16'd19, 16'd20, 16'd18, 16'd17, 16'd16, 16'd21, 16'd31, 16'd32, 16'd31, 16'd17, 16'd32, 16'd17, 16'd17, 16'd17, 16'd17, 16'd17};
+  localparam logic [671:0] WORD_LOW = {16'd0, 16'd21, 16'd39, 16'd56, 16'd88, 16'd114, 16'd116, 16'd124, 16'd132, 16'd152, 16'd176, 16'd188, 16'd205, 16'd224, 16'd243, 16'd260, 16'd277, 16'd298, 16'd318, 16'd332, 16'd352, 16'd372, 16'd389, 16'd406, 16'd423, 16'd451, 16'd471, 16'd490, 16'd510, 16'd528, 16'd545, 16'd561, 16'd582, 16'd613, 16'd645, 16'd676, 16'd693, 16'd724, 16'd741, 16'd758, 16'd775, 16'd792};
+  localparam logic [671:0] WORD_BITS = {16'd21, 16'd18, 16'd17, 16'd32, 16'd26, 16'd2, 16'd8, 16'd8, 16'd20, 16'd24, 16'd12, 16'd17, 16'd19, 16'd19, 16'd17, 16'd17, 16'd21, 16'd20, 16'd14, 16'd20, 16'd20, 16'd17, 16'd17, 16'd17, 16'd28, 16'd20, 16'd19, 16'd20, 16'd18, 16'd17, 16'd16, 16'd21, 16'd31, 16'd32, 16'd31, 16'd17, 16'd31, 16'd17, 16'd17, 16'd17, 16'd17, 16'd17};
   localparam logic [671:0] WORD_ADDRESS = {16'd490, 16'd486, 16'd483, 16'd482, 16'd481, 16'd41, 16'd38, 16'd37, 16'd51, 16'd46, 16'd45, 16'd40, 16'd39, 16'd35, 16'd50, 16'd34, 16'd33, 16'd56, 16'd43, 16'd36, 16'd30, 16'd29, 16'd28, 16'd27, 16'd25, 16'd24, 16'd32, 16'd31, 16'd23, 16'd22, 16'd21, 16'd20, 16'd19, 16'd18, 16'd16, 16'd15, 16'd17, 16'd9, 16'd8, 16'd7, 16'd5, 16'd4};
-  localparam int PARAMS_W = 810;
-  localparam logic [809:0] PARAMS_RESET = {17'd67092, 17'd78019, 17'd75398, 17'd126878, 17'd128346, 32'd133, 17'd67092, 31'd1286812467, 32'd2920000000, 31'd12582912, 21'd196608, 16'd4000, 17'd126668, 18'd117337, 20'd0, 19'd39, 20'd32768, 28'd84, 17'd65536, 17'd106071, 17'd104038, 20'd9830, 20'd16384, 14'd4883, 20'd8192, 21'd541620, 17'd81920, 17'd62259, 19'd4162, 19'd176194, 17'd106667, 12'd2465, 24'd100000, 20'd9830, 8'd157, 8'd0, 2'd3, 26'd0, 32'd0, 17'd0, 18'd0, 21'd0};
+  localparam int PARAMS_W = 809;
+  localparam logic [808:0] PARAMS_RESET = {17'd67092, 17'd78019, 17'd75398, 17'd126878, 17'd128346, 31'd133, 17'd67092, 31'd1286812467, 32'd2920000000, 31'd12582912, 21'd196608, 16'd4000, 17'd126668, 18'd117337, 20'd0, 19'd39, 20'd32768, 28'd84, 17'd65536, 17'd106071, 17'd104038, 20'd9830, 20'd16384, 14'd4883, 20'd8192, 21'd541620, 17'd81920, 17'd62259, 19'd4162, 19'd176194, 17'd106667, 12'd2465, 24'd100000, 20'd9830, 8'd157, 8'd0, 2'd3, 26'd0, 32'd0, 17'd0, 18'd0, 21'd0};
   typedef struct packed {
     logic [16:0] velocity_a1;
     logic [16:0] inverse_resistance;
     logic [16:0] emf_over_resistance;
     logic [16:0] torque_constant;
     logic [16:0] inertia_gain;
-    logic [31:0] nominal_current_squared;
+    logic [30:0] nominal_current_squared;
     logic [16:0] observer_a1;
     logic [30:0] overspeed;
     logic [31:0] i2t_budget;

@@ -93,7 +93,6 @@ TEST_CASE("every word has one register that holds each of its values", "[cfg]") 
       CHECK(w.raw < std::int64_t{1} << (w.field().width() - w.field().sign));
       if (p.scene.empty()) CHECK(r.reset == w.raw);
       if (p.kind == "limit") {
-        CHECK(w.format.sign == 1);
         CHECK(w.field().sign == 0);
         CHECK(w.field().width() == w.format.width() - 1);
       }

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """netlist_test.py YOSYS ROOT PACKAGE: Yosys elaborates the chip with the package of a design for the membrane
-alone, and with lever's. The first has no divider, which only a charge needs, and fewer products in its scene; nothing
-else is gone. docs/designs.md
+alone, and with lever's. The first has no divider, which only a charge needs, and at most half the cells in its scene; no
+other block is gone. docs/designs.md
 """
 
 import json

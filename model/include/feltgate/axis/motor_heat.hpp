@@ -40,8 +40,7 @@ struct MotorHeat {
   bool heat(T& sum, const Words<T>& p, bool armed, T current) const {
     const bool hot = sum >= p.i2t_budget;
     const T square = armed && sum < full ? N::scale(current * current, squared) : T{0};
-    const bool negative = p.nominal_current_squared >= T{std::int64_t{1} << 31};  // the word
-    sum = std::max(sum - (negative ? T{0} : p.nominal_current_squared), T{0}) + square;
+    sum = std::max(sum - p.nominal_current_squared, T{0}) + square;
     return hot;
   }
   template <class At>

@@ -167,7 +167,7 @@ struct Lever {
       {"inertia_gain", "Nm s/rad", A::inertia_gain, P::inertia_gain,
        0.060999999999999999, 127926, {0, -4, 21}},
       {"nominal_current_squared", "A^2", A::nominal_current_squared, P::nominal_current_squared,
-       33.292899999999996, 133, {0, 30, 2}},
+       33.292899999999996, 133, {0, 29, 2}},
       {"observer_a1", "1", A::observer_a1, P::observer_a1,
        0.00049987502083072939, 67092, {0, -10, 27}},
       {"overspeed", "rad/s", A::overspeed, P::overspeed,

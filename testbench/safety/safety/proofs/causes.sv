@@ -134,8 +134,7 @@ module causes_proof (
     heated_q <= sampled_q[6];
     if (sampled_q[5]) begin
       hot_q    <= heat >= SumW'(p.i2t_budget);
-      cooled_q <= p.nominal_current_squared[31] ? heat :
-                  heat > SumW'(p.nominal_current_squared) ? heat - SumW'(p.nominal_current_squared) : '0;
+      cooled_q <= heat > SumW'(p.nominal_current_squared) ? heat - SumW'(p.nominal_current_squared) : '0;
       added_q  <= \u_dut.armed && heat < SumW'(33'd1 << 32) ? square[SquaredDrop+:SquaredW] : '0;
     end
   end

@@ -12,8 +12,8 @@
 
 namespace feltgate::design {
 
-/// The files of rtl/designs; an entry without a name ends the list. And rtl/registers.toml. Both are
-/// constant-initialised, so constructors of other files may read them.
+/// The files of rtl/designs; an entry without a name ends the list. And rtl/registers.toml. Both
+/// are constant-initialised, so constructors of other files may read them.
 extern const ShippedFile* const shipped_designs;
 extern const char* const shipped_registers;
 
@@ -43,7 +43,8 @@ Elaborated design_named(const std::string& name) {
   if (is_path(name)) return elaborate(read_design(name), registers());
   for (const ShippedFile* f = shipped_designs; f->name != nullptr; ++f) {
     if (name != f->name) continue;
-    return elaborate(design_from_text(f->text, fmt::format("rtl/designs/{}.toml", name)), registers());
+    return elaborate(design_from_text(f->text, fmt::format("rtl/designs/{}.toml", name)),
+                     registers());
   }
   throw std::invalid_argument(fmt::format(
       "design \"{}\" is unknown; {}choose one of {}, or give the path of a design file", name,

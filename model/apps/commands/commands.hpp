@@ -74,8 +74,8 @@ void use_design_files();
 inline constexpr const char* design_help =
     "design point in rtl/designs; default: lever, of a law lever_law, of a device its own";
 
-/// `given`, where it is the name of a design or the path of its file. Errors: std::invalid_argument,
-/// which names the choices.
+/// `given`, where it is the name of a design or the path of its file. Errors:
+/// std::invalid_argument, which names the choices.
 std::string built_design(const std::string& given);
 
 /// Adds an option. `type`: what its value is called in the help; empty: by the type of `value`.

@@ -68,7 +68,8 @@ constexpr const char* usage =
     "       feltgate generate --design FILE -o DIR [--allow-coarse]\n"
     "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the map for RTL and C++,\n"
     "docs/registers.md, the packages of lever, paper and gimbal_current in rtl/generated (a build\n"
-    "makes those of the others), and for lever a C++ header in model/include/feltgate/generated and\n"
+    "makes those of the others), and for lever a C++ header in model/include/feltgate/generated "
+    "and\n"
     "the register map as C header, SystemRDL and CSV.\n"
     "--check only compares, all or what follows from these designs; exit code 1 when a file is "
     "stale.\n"
@@ -153,7 +154,8 @@ bool update_design(const Options& o, const feltgate::design::Elaborated& e) {
     stale |= update(folder / "parameters.mem", memory_text(e), o.check_only);
   }
   if (name == "lever") {  // the others' files for hosts are written on request
-    stale |= update(o.root / "model/include/feltgate/generated/lever.hpp", cpp_header(e), o.check_only);
+    stale |=
+        update(o.root / "model/include/feltgate/generated/lever.hpp", cpp_header(e), o.check_only);
     stale |= update_host_files(folder, e, o.check_only);
     stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);
     stale |= update(o.root / "rtl/generated/feltgate_map.h", c_map_header(e), o.check_only);

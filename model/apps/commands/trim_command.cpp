@@ -283,8 +283,8 @@ Trimmed trimmed_device(const std::string& path, TrimArguments& a, files::Outputs
   if (a.design.empty()) a.options.design = own_design(scene);
   const DesignInfo& design = design_named(a.options.design);
   if (design.axes != static_cast<int>(axes_of(scene))) {
-    throw std::invalid_argument(fmt::format("{}: {} is no design of this device; leave --design out",
-                                            path, a.options.design));
+    throw std::invalid_argument(fmt::format(
+        "{}: {} is no design of this device; leave --design out", path, a.options.design));
   }
   const trim::LawMaker law = law_of(scene.scenario, design, axes_of(scene));
   if (!law) throw std::invalid_argument(path + ": a device of several axes needs a law");

@@ -44,10 +44,10 @@ std::unique_ptr<Core> make_core(const std::string& name, const std::string& kind
   if (kind == "twin") return twin(design, options);
   const auto board = rtl().find(design.name);
   if (board == rtl().end()) {
-    throw std::invalid_argument(
-        fmt::format("design {0}: its board as rtl is not in this program; ./feltgate board --design "
-                    "{0} --rtl builds it",
-                    name));
+    throw std::invalid_argument(fmt::format(
+        "design {0}: its board as rtl is not in this program; ./feltgate board --design "
+        "{0} --rtl builds it",
+        name));
   }
   require_rtl_of(design, board->second.design_crc);
   return board->second.maker(design, options);

@@ -20,8 +20,7 @@ class PinTwin : public Core {
  public:
   PinTwin(const DesignInfo& design, const BoardOptions& o)
       : info_(design),
-        core_(std::make_unique<Linked>(design.data,
-                                       LinkedOptions{o.baud, o.simulated, o.board})),
+        core_(std::make_unique<Linked>(design.data, LinkedOptions{o.baud, o.simulated, o.board})),
         inputs_(static_cast<std::uint8_t>(o.inputs)),
         looped_(info_.current_full_scale_a > 0) {
     if (info_.absolute) sensor_.emplace(*info_.absolute);

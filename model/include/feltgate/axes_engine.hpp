@@ -236,7 +236,7 @@ class AxesEngine {
     bool law = false, armed = false;
     bool checks = false, check_of_these = false, checked = false;
     bool taken_checked = false;  ///< the axes have taken the torques of checked programs
-    int runs = 0;  ///< runs that must end before the torque includes the change
+    int runs = 0;                ///< runs that must end before the torque includes the change
     bool sampled = true;
     std::uint32_t rdata = 0;
     bool rdata_known = true;

@@ -41,9 +41,9 @@ struct DesignInfo {
   axis::Design data;  ///< what the twin is made of
   std::int64_t clock_hz = 0, tick_hz = 0;
   int clocks_per_tick = 0, pwm_period = 0, dead_clocks = 0, shortest_clocks = 1, pwm_mode = 0;
-  int phases = 2;              ///< 3: the bridge has three legs, and turns the voltage
-  int m1 = 0;                  ///< window of the N-method, in ticks; 0: M/T
-  double rad_s_per_count = 0;  ///< velocity that one count in that window stands for
+  int phases = 2;                  ///< 3: the bridge has three legs, and turns the voltage
+  int m1 = 0;                      ///< window of the N-method, in ticks; 0: M/T
+  double rad_s_per_count = 0;      ///< velocity that one count in that window stands for
   double velocity_gain_rad_s = 0;  ///< exact, of a count in the window; 0: what the data say
   double count_rad = 0, supply_v = 0;
   Format velocity{}, torque{}, current{}, voltage{};

@@ -32,8 +32,8 @@ struct Parameter {
 };
 
 /// A device of any design; TwinDevice below is the twin's, make_device("lever") of feltgate::sim
-/// makes one by the name of its design. Requests (parameters, scene, arming) take effect with the next ticks, as at the
-/// pins.
+/// makes one by the name of its design. Requests (parameters, scene, arming) take effect with the
+/// next ticks, as at the pins.
 class Device {
  public:
   virtual ~Device() = default;

@@ -52,7 +52,8 @@ class EngineRuns {
     if (rest_ > 0) --rest_;
   }
   const EngineWatch& watch() const { return watch_; }
-  /// The axes take the torque in this clock; with torque() instead while runs are computed as a whole.
+  /// The axes take the torque in this clock; with torque() instead while runs are computed as a
+  /// whole.
   void take() { watch_.take(); }
   /// Whether a commit is under way: then parameters cannot be written.
   bool committing() const { return engine_.commit_.committing(); }

@@ -18,8 +18,8 @@
 namespace feltgate {
 
 /// N axes of a design, each a core. The device adds the signals between the cores, the register
-/// port, and with WithEngine the engine; its torque then replaces the inputs law_... What a core takes
-/// of the program, and whether an axis before it tests itself, is sampled with the position.
+/// port, and with WithEngine the engine; its torque then replaces the inputs law_... What a core
+/// takes of the program, and whether an axis before it tests itself, is sampled with the position.
 template <int N, bool WithEngine = false>
 class FeltgateAxes {
  public:
@@ -53,8 +53,9 @@ class FeltgateAxes {
   /// Advances `clocks` clocks with the inputs held; reg_write and the axes' set_zero must be low.
   /// Equals so many calls of clock(), but goes from event to event where no axis can affect the
   /// others. `on_snapshot()` is called whenever out() holds a valid snapshot. A watcher gets
-  /// `event(clock, number)` for each event of a program, where clock 0 is the first of these clocks,
-  /// and `tick_ends()` before a tick's last clock, when all is known of the runs that began in it.
+  /// `event(clock, number)` for each event of a program, where clock 0 is the first of these
+  /// clocks, and `tick_ends()` before a tick's last clock, when all is known of the runs that began
+  /// in it.
   template <class OnSnapshot>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     NoWatcher none;
@@ -244,7 +245,8 @@ class FeltgateAxes {
     }
   }
 
-  /// Whether the duties of all axes are new in one clock, with an engine that of a program's torque.
+  /// Whether the duties of all axes are new in one clock, with an engine that of a program's
+  /// torque.
   bool in_step() const {
     const int clock = WithEngine ? Core::law_duty_clock : cores_[0].duty_clock();
     return std::all_of(cores_.begin(), cores_.end(),

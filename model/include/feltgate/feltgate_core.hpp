@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The chip of a design with one axis, bit-exact and clock-exact: the axis between the sockets of its
-// encoder and its bridge, as in rtl/tops. clock() is one clock; run() takes a tick as a whole where
-// nothing out of the ordinary happens in it, with identical results. docs/architecture.md
+// The chip of a design with one axis, bit-exact and clock-exact: the axis between the sockets of
+// its encoder and its bridge, as in rtl/tops. clock() is one clock; run() takes a tick as a whole
+// where nothing out of the ordinary happens in it, with identical results. docs/architecture.md
 #pragma once
 
 #include <cstdint>
@@ -148,7 +148,8 @@ class FeltgateCore {
   /// refuses its request.
   bool arm_request(const CoreIn& in) const { return safe(in).arm_request; }
   bool ready() const { return safe(CoreIn{}).ready; }
-  /// Whether the next clock samples the position and a program's torque, or is the last of its tick.
+  /// Whether the next clock samples the position and a program's torque, or is the last of its
+  /// tick.
   bool samples() const { return axis_.blocks().ticks.sample; }
   bool last() const { return axis_.blocks().ticks.last; }
   /// Whether in the next clock position, velocity and tau_hat are those of this tick.
@@ -177,8 +178,8 @@ class FeltgateCore {
 
  private:
   using EncoderSocket = std::variant<axis::Quadrature, axis::QuadratureHall, axis::Absolute>;
-  using BridgeSocket = std::variant<axis::HBridge, axis::HBridgeCurrent, axis::ThreePhase,
-                                    axis::ThreePhaseCurrent>;
+  using BridgeSocket =
+      std::variant<axis::HBridge, axis::HBridgeCurrent, axis::ThreePhase, axis::ThreePhaseCurrent>;
 
   static EncoderSocket encoder_of(const axis::Design& d) {
     if (d["ABSOLUTE_ENCODER"] != 0) return axis::Absolute(d);

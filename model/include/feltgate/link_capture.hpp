@@ -21,7 +21,8 @@ template <int Rows = 1 << LinkMap::rows_log2, bool Events = true>
 class LinkCapture {
  public:
   struct In {
-    bool word_valid = false;  ///< word_data is the snapshot's word of this number; the status ends a tick
+    bool word_valid =
+        false;  ///< word_data is the snapshot's word of this number; the status ends a tick
     std::uint8_t word_number = 0;
     std::uint32_t word_data = 0;
     std::uint16_t addr = 0;

@@ -27,7 +27,8 @@ template <int N>
 class LinkView {
  public:
   static constexpr int words = LinkMap::snapshot_words;
-  static constexpr int delay = words + 1;  ///< clocks from a tick's last clock to the view's last word
+  static constexpr int delay =
+      words + 1;  ///< clocks from a tick's last clock to the view's last word
   struct In {
     std::array<bool, N> word_valid{};  ///< word_data is the axis' word of this number
     std::array<std::uint8_t, N> word_number{};

@@ -151,11 +151,11 @@ class LinkedCore {
     bool event_valid = false;
     int event_number = 0;
   };
-  static constexpr std::uint32_t kFeatures =
-      1U << LinkMap::B::features_capture | 1U << LinkMap::B::features_stream |
-      (WithEngine ? 1U : 0U) << LinkMap::B::features_engine |
-      LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
-      LinkMap::columns << LinkMap::B::features_columns;
+  static constexpr std::uint32_t kFeatures = 1U << LinkMap::B::features_capture |
+                                             1U << LinkMap::B::features_stream |
+                                             (WithEngine ? 1U : 0U) << LinkMap::B::features_engine |
+                                             LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
+                                             LinkMap::columns << LinkMap::B::features_columns;
 
   typename Port::In port_in(const In& in) const {
     typename Port::In p;
@@ -220,7 +220,8 @@ class LinkedCore {
       const auto& o = view_.out();
       return {o.word_valid, o.word_number, o.word_data, o.event_valid, o.event_number};
     } else {
-      return {words.valid[0], words.number[0], words.data[0], words.event_valid, words.event_number};
+      return {words.valid[0], words.number[0], words.data[0], words.event_valid,
+              words.event_number};
     }
   }
   void view_clock(const Words& words, std::uint16_t addr, std::uint32_t wdata, bool write) {
@@ -326,9 +327,7 @@ class LinkedCore {
   }
 
   static FeltgateCore& core_of(FeltgateCore& core, std::size_t = 0) { return core; }
-  static const FeltgateCore& core_of(const FeltgateCore& core, std::size_t = 0) {
-    return core;
-  }
+  static const FeltgateCore& core_of(const FeltgateCore& core, std::size_t = 0) { return core; }
   template <class Axes>
   static auto& core_of(Axes& axes, std::size_t n = 0) {
     return axes.core(static_cast<int>(n));

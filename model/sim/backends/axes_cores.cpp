@@ -34,8 +34,8 @@ bool add_rtl_axes(const std::string& design, std::uint32_t design_crc, RtlAxesMa
 std::unique_ptr<AxesCores> make_axes_cores(const std::string& name, const std::string& kind) {
   const DesignInfo& design = design_named(name);
   if (design.axes < 2 || !design.engine) {
-    throw std::invalid_argument(fmt::format(
-        "design {} is not one of several axes; give that of the scene's device", name));
+    throw std::invalid_argument(
+        fmt::format("design {} is not one of several axes; give that of the scene's device", name));
   }
   if (kind == "twin") {
     if (design.axes == 2) return std::make_unique<TwinAxes<2>>(design);

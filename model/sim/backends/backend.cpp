@@ -71,10 +71,10 @@ bool add_rtl(const std::string& design, std::uint32_t design_crc, RtlMaker maker
 
 void require_rtl_of(const DesignInfo& design, std::uint32_t design_crc) {
   if (design.design_crc == design_crc) return;
-  throw std::invalid_argument(
-      fmt::format("design {0}: its RTL in this program is of another design of this name; run "
-                  "./feltgate generate, then this command by way of ./feltgate, which builds it anew",
-                  design.name));
+  throw std::invalid_argument(fmt::format(
+      "design {0}: its RTL in this program is of another design of this name; run "
+      "./feltgate generate, then this command by way of ./feltgate, which builds it anew",
+      design.name));
 }
 
 std::unique_ptr<Backend> make_backend(const std::string& name, const std::string& kind) {
@@ -101,9 +101,8 @@ std::unique_ptr<Backend> make_backend(const std::string& name, const std::string
 std::unique_ptr<Device> make_device(const std::string& name) {
   const DesignInfo& design = design_named(name);
   if (design.axes == 1 && !design.engine) return std::make_unique<TwinDevice>(design);
-  throw std::invalid_argument(
-      fmt::format("design {} has an engine of laws, and no device of this kind; choose another",
-                  name));
+  throw std::invalid_argument(fmt::format(
+      "design {} has an engine of laws, and no device of this kind; choose another", name));
 }
 
 std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std::string& kind) {

@@ -27,8 +27,8 @@ class LawCore {
     axes_.clock(axes_in(in));
     show();
   }
-  /// Like FeltgateCore::run(): from event to event while nobody writes. A snapshot is told of at the
-  /// end of its tick, when it is known which runs of the program began in it.
+  /// Like FeltgateCore::run(): from event to event while nobody writes. A snapshot is told of at
+  /// the end of its tick, when it is known which runs of the program began in it.
   template <class OnSnapshot>
   void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     struct Watcher {
@@ -40,7 +40,8 @@ class LawCore {
         on_snapshot();
       }
     } watcher{*this, on_snapshot};
-    axes_.run(axes_in(in), clocks, [] {}, watcher);
+    axes_.run(
+        axes_in(in), clocks, [] {}, watcher);
     show();
   }
   bool snapshot_due() const { return axes_.last(); }

@@ -19,8 +19,7 @@ namespace feltgate {
 template <class Rtl>
 class LockStepBackend : public ClockedBackend {
  public:
-  explicit LockStepBackend(const DesignInfo& design)
-      : ClockedBackend(design), core_(info_.data) {}
+  explicit LockStepBackend(const DesignInfo& design) : ClockedBackend(design), core_(info_.data) {}
   const char* name() const override { return "lockstep"; }
   void trace(const std::string& path, Clock from, Clock to) override {
     core_.trace(path, from, to);

@@ -11,9 +11,9 @@
 #include <string>
 
 #include "lock_step_core.hpp"
-#include "twin_axes.hpp"
 #include "rtl_axes_ports.hpp"
 #include "rtl_model.hpp"
+#include "twin_axes.hpp"
 
 namespace feltgate {
 
@@ -40,8 +40,8 @@ std::string port_difference(const AxesOut<N>& rtl, const AxesOut<N>& twin) {
   return {};
 }
 
-/// Rtl is Verilator's class of feltgate_axes for this design. The twin leads and gives the results of
-/// a run; the RTL follows in every clock.
+/// Rtl is Verilator's class of feltgate_axes for this design. The twin leads and gives the results
+/// of a run; the RTL follows in every clock.
 template <class Rtl, int N>
 class LockStepAxes : public TwinAxes<N> {
   using Base = TwinAxes<N>;
@@ -50,9 +50,7 @@ class LockStepAxes : public TwinAxes<N> {
 
  public:
   explicit LockStepAxes(const DesignInfo& design)
-      : Base(design),
-        bits_(design.data),
-        half_clock_ps_(500'000'000'000 / design.clock_hz) {}
+      : Base(design), bits_(design.data), half_clock_ps_(500'000'000'000 / design.clock_hz) {}
   void trace(const std::string& path, Clock from, Clock to) override {
     path_ = path;
     from_ = from;

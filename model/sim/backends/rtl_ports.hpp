@@ -136,8 +136,7 @@ CoreOut read_outputs(const Rtl& rtl, const PortBits& bits) {
   o.current_ref = detail::narrow_word(rtl.current_ref_o, bits.current);
   o.voltage = detail::narrow_word(rtl.voltage_o, bits.voltage);
   o.duty = static_cast<std::int16_t>(detail::narrow_word(rtl.duty_o, bits.duty));
-  o.duty_active =
-      static_cast<std::int16_t>(detail::narrow_word(rtl.duty_active_o, bits.duty));
+  o.duty_active = static_cast<std::int16_t>(detail::narrow_word(rtl.duty_active_o, bits.duty));
   o.gates = static_cast<std::uint8_t>(rtl.gate_a_hi_o | rtl.gate_a_lo_o << 1 |
                                       rtl.gate_b_hi_o << 2 | rtl.gate_b_lo_o << 3 |
                                       get_gate_c_hi_o(rtl, 0) << 4 | get_gate_c_lo_o(rtl, 0) << 5);

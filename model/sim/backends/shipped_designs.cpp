@@ -11,9 +11,9 @@
 /// design.
 extern "C" [[gnu::constructor(200)]] void feltgate_shipped_designs();
 extern "C" void feltgate_shipped_designs() {
-  feltgate::set_design_source(
-      {[](const std::string& name) {
-         return feltgate::design::info_of(feltgate::design::design_named(name));
-       },
-       feltgate::design::shipped_names});
+  feltgate::set_design_source({[](const std::string& name) {
+                                 return feltgate::design::info_of(
+                                     feltgate::design::design_named(name));
+                               },
+                               feltgate::design::shipped_names});
 }

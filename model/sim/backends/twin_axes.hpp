@@ -16,7 +16,8 @@
 
 namespace feltgate {
 
-/// The twin of N axes with an engine. A derived class may run RTL beside it, through the virtual members.
+/// The twin of N axes with an engine. A derived class may run RTL beside it, through the virtual
+/// members.
 template <int N>
 class TwinAxes : public AxesCores {
  public:
@@ -50,7 +51,9 @@ class TwinAxes : public AxesCores {
       if (!writes_.empty()) {
         const int ahead = host_write_clock - twin_->clock_of_tick();
         writes = ahead == 0 && !twin_->glue().busy() && !twin_->out().reg_busy;
-        until = std::min(until, now_ + (ahead == 0 ? 1 : ahead > 0 ? ahead : ahead + info_.clocks_per_tick));
+        until = std::min(until, now_ + (ahead == 0  ? 1
+                                        : ahead > 0 ? ahead
+                                                    : ahead + info_.clocks_per_tick));
       }
       if (writes) issue_write();
       run(until - now_);
@@ -95,7 +98,8 @@ class TwinAxes : public AxesCores {
         void event(std::int64_t, int) {}
         void tick_ends() { axes.keep(); }
       } watcher{*this};
-      twin_->run(in_, clocks, [] {}, watcher);
+      twin_->run(
+          in_, clocks, [] {}, watcher);
       now_ += clocks;
       return;
     }

@@ -20,7 +20,8 @@ template <class Core>
 class TwinBackend : public ClockedBackend {
  public:
   explicit TwinBackend(const DesignInfo& design)
-      : ClockedBackend(design), core_(info_.data, false) {}  // nobody reads registers through a back-end
+      : ClockedBackend(design),
+        core_(info_.data, false) {}  // nobody reads registers through a back-end
   const char* name() const override { return "twin"; }
 
   /// Goes from event to event: pins, register writes, end of the stretch. The last clocks, in which

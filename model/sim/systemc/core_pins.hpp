@@ -14,28 +14,28 @@
 
 /// X(type, name) for every port but clk_i and rst_ni. Signed numbers are two's complement words in
 /// the low bits; of current_data_i bit n is the line of modulator n.
-#define FELTGATE_CORE_INPUTS(X)  \
-  X(bool, enc_a_i)               \
-  X(bool, enc_b_i)               \
-  X(bool, enc_z_i)               \
-  X(bool, encoder_data_i)        \
-  X(std::uint32_t, hall_i)       \
+#define FELTGATE_CORE_INPUTS(X)    \
+  X(bool, enc_a_i)                 \
+  X(bool, enc_b_i)                 \
+  X(bool, enc_z_i)                 \
+  X(bool, encoder_data_i)          \
+  X(std::uint32_t, hall_i)         \
   X(std::uint32_t, current_data_i) \
-  X(bool, driver_fault_i)        \
-  X(bool, arm_i)                 \
-  X(bool, stop_i)                \
-  X(bool, set_zero_i)            \
-  X(std::uint32_t, scene_i)      \
-  X(std::uint32_t, law_torque_i) \
-  X(bool, law_late_i)            \
-  X(bool, law_restart_i)         \
-  X(bool, axis_fault_i)          \
-  X(bool, axis_silent_i)         \
-  X(bool, axis_blocked_i)        \
-  X(bool, axis_testing_i)        \
-  X(bool, axis_waits_i)          \
-  X(std::uint32_t, reg_addr_i)   \
-  X(std::uint32_t, reg_wdata_i)  \
+  X(bool, driver_fault_i)          \
+  X(bool, arm_i)                   \
+  X(bool, stop_i)                  \
+  X(bool, set_zero_i)              \
+  X(std::uint32_t, scene_i)        \
+  X(std::uint32_t, law_torque_i)   \
+  X(bool, law_late_i)              \
+  X(bool, law_restart_i)           \
+  X(bool, axis_fault_i)            \
+  X(bool, axis_silent_i)           \
+  X(bool, axis_blocked_i)          \
+  X(bool, axis_testing_i)          \
+  X(bool, axis_waits_i)            \
+  X(std::uint32_t, reg_addr_i)     \
+  X(std::uint32_t, reg_wdata_i)    \
   X(bool, reg_write_i)
 #define FELTGATE_CORE_OUTPUTS(X)  \
   X(bool, gate_a_hi_o)            \

@@ -63,11 +63,7 @@ std::vector<BlockLaw> make() {
                    return Values{{"rest", v.at("tension_rest") * q},
                                  {"stiffness", v.at("tension_stiffness") / q}};
                  }});
-  all.push_back({"damper",
-                 "damper",
-                 "",
-                 {"damper_damping"},
-                 [](const Values& v, double) {
+  all.push_back({"damper", "damper", "", {"damper_damping"}, [](const Values& v, double) {
                    return Values{{"damping", v.at("damper_damping")}};
                  }});
   all.push_back({"charge_attract",

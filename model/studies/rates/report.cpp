@@ -202,9 +202,8 @@ std::string report_text(const Report& r) {
     for (const std::string& line : row.broken) s += fmt::format("not kept at {}: {}\n", rate, line);
   }
   return s + notes_text(r) +
-         fmt::format(
-             "gates, at every rate: engine {} LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
-             FELTGATE_LUT4_ENGINE, several ? " with its glue to one axis" : "");
+         fmt::format("gates, at every rate: engine {} LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
+                     FELTGATE_LUT4_ENGINE, several ? " with its glue to one axis" : "");
 }
 
 std::string gains_text(const Report& r) {

@@ -26,7 +26,8 @@ using H = EngineMap::H;
 
 /// What is told at the end of a tick: the runs behind its torque, and those that began in it.
 inline void same_runs(const EngineWatch& x, const EngineWatch& y) {
-  if (x.begins == y.begins && x.in_force == y.in_force && x.changes_at_begin == y.changes_at_begin) {
+  if (x.begins == y.begins && x.in_force == y.in_force &&
+      x.changes_at_begin == y.changes_at_begin) {
     return;
   }
   CAPTURE(x.begins, y.begins, x.in_force.value_or(7), y.in_force.value_or(7), x.changes_at_begin,
@@ -122,7 +123,8 @@ class Both {
       Watcher watcher{by_event, told};
       const auto on_snapshot = [&] {
         REQUIRE(next < shown.size());
-        same<N>(shown[next], by_event.out(), by_event.glue().watch(), by_event.glue().watch(), true);
+        same<N>(shown[next], by_event.out(), by_event.glue().watch(), by_event.glue().watch(),
+                true);
         ++next;
       };
       by_event.run(in, clocks, on_snapshot, watcher);

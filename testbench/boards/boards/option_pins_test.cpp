@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A board of gimbal_current around a stub of feltgate_linked: the pins of the options reach their ports,
-// the fault of the bridge's driver with the board's polarity. docs/boards/ulx3s.md
+// A board of gimbal_current around a stub of feltgate_linked: the pins of the options reach their
+// ports, the fault of the bridge's driver with the board's polarity. docs/boards/ulx3s.md
 #ifdef ULX3S
 #include <Vulx3s.h>
 using Top = Vulx3s;

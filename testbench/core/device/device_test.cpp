@@ -195,7 +195,8 @@ TEST_CASE("parameters go by name, in their units") {
   CHECK(has(refusal([&] { d->select("wal"); }), "did you mean \"wall\"?"));
   CHECK(has(refusal([&] { d->tick_to(1.0); }), "move it in smaller steps"));
   CHECK(has(refusal([&] { d->run(10, {{11, {}}}); }), "after the end of the stretch"));
-  CHECK(has(refusal([] { make_device("levre"); }), "design \"levre\" is unknown; did you mean \"lever\"?"));
+  CHECK(has(refusal([] { make_device("levre"); }),
+            "design \"levre\" is unknown; did you mean \"lever\"?"));
 }
 
 TEST_CASE("every scene that a design builds can be chosen") {

@@ -75,7 +75,8 @@ using Twin = EncoderMonitor;
 
 struct Adapter {
   static void drive(Vencoder_monitor& rtl, const Twin::In& in) {
-    FELTGATE_DRIVE(rtl, in, at_levels, tick_count, levels, index_wrong, count, zero, step, set_zero);
+    FELTGATE_DRIVE(rtl, in, at_levels, tick_count, levels, index_wrong, count, zero, step,
+                   set_zero);
   }
   template <class Check>
   static void compare(Check& check, const Vencoder_monitor& rtl, const Twin::Out& out) {

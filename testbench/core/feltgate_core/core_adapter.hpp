@@ -32,7 +32,9 @@ using CoreTwin = test::CoreOf<Design>;
 constexpr bool kPrograms = test::scene_built<Design>(Map::S::law);
 
 struct CoreAdapter {
-  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { drive_inputs(rtl, feltgate::test::port_bits<Design>(), in); }
+  static void drive(Vfeltgate_core& rtl, const CoreIn& in) {
+    drive_inputs(rtl, feltgate::test::port_bits<Design>(), in);
+  }
   static void at_edge(Vfeltgate_core& rtl) { rtl.stop_i = 0; }
   template <class Check>
   static void compare(Check& check, const Vfeltgate_core& rtl, const CoreOut& out) {

@@ -278,7 +278,8 @@ TEST_CASE("three: a stop between the edges closes all six gates, and needs no cl
       rtl.clock();
       CHECK(feltgate::read_outputs(*rtl, feltgate::test::port_bits<D>()).gates == 0);
     }
-    CHECK(feltgate::read_outputs(*rtl, feltgate::test::port_bits<D>()).faults == fault_bit(Fault::stop));
+    CHECK(feltgate::read_outputs(*rtl, feltgate::test::port_bits<D>()).faults ==
+          fault_bit(Fault::stop));
   }
   CHECK(seen == 63u);
 }

@@ -23,7 +23,8 @@ using D = feltgate::Lever;
 
 namespace {
 
-#define FELTGATE_AXIS(name) rtl_->rootp->feltgate_core__DOT__gen_lever__DOT__u_top__DOT__u_axis__DOT__##name
+#define FELTGATE_AXIS(name) \
+  rtl_->rootp->feltgate_core__DOT__gen_lever__DOT__u_top__DOT__u_axis__DOT__##name
 
 constexpr int kTick = D::clocks_per_tick;
 
@@ -47,7 +48,8 @@ class Pair {
       feltgate::drive_inputs(*rtl_, feltgate::test::port_bits<D>(), in);
       edge();
       twin_.clock(in);
-      if (!(feltgate::read_outputs(*rtl_, feltgate::test::port_bits<D>()) == twin_.out())) ++mismatches_;
+      if (!(feltgate::read_outputs(*rtl_, feltgate::test::port_bits<D>()) == twin_.out()))
+        ++mismatches_;
     }
   }
   void to_next_tick() { clocks(kTick - twin_.clock_of_tick()); }
@@ -125,7 +127,9 @@ int clocks_to_fall(Pair& pair, int limit) {
 
 }  // namespace
 
-TEST_CASE("core: each bit of each word that a scene uses opens the gates within two ticks, and has no effect") {
+TEST_CASE(
+    "core: each bit of each word that a scene uses opens the gates within two ticks, and has no "
+    "effect") {
   Pair pair;
   int flips = 0;
   for (const auto& p : D::parameters) {

@@ -194,8 +194,7 @@ void write_amid(const test::CoreOf<D>& start, const CoreIn& held, int halt, int 
   REQUIRE(by_clock.gate_clocks() == by_event.gate_clocks());
   REQUIRE(clocks.value() == events.value());
   if (c % 5 == 0 && halt == 0) {
-    REQUIRE(test::heat_of<D>(by_clock) ==
-            test::heat_of<D>(by_event));
+    REQUIRE(test::heat_of<D>(by_clock) == test::heat_of<D>(by_event));
   }
 }
 
@@ -372,6 +371,6 @@ TEST_CASE("every fault trips in the same clock from event to event") {
   CHECK(met.flips > 200);
   // "Not calm" is always right, so how often it is said is all that there is to check of it.
   CAPTURE(met.armed_starts, met.armed_calm, met.idle_starts, met.idle_calm);
-  CHECK(met.armed_calm * 30 > met.armed_starts);
+  CHECK(met.armed_calm * 10 > met.armed_starts);
   CHECK(met.idle_calm * 10 > met.idle_starts);
 }

@@ -200,7 +200,8 @@ class Beside : public sc_core::sc_module {
     bits_ = bits_ * 6364136223846793005u + 1442695040888963407u;
     const auto random = static_cast<std::uint32_t>(bits_ >> 40);
     CoreIn in;
-    in.current_data = static_cast<std::uint8_t>(random & (D::current_loop != 0 && D::phases == 3 ? 3u : 0u));
+    in.current_data =
+        static_cast<std::uint8_t>(random & (D::current_loop != 0 && D::phases == 3 ? 3u : 0u));
     in.hall = static_cast<std::uint8_t>(clocks >> 9 & 7);
     in.arm = clocks > 530'000;  // once the offset of the current is known, after 512 periods
     if constexpr (D::absolute_encoder != 0) {

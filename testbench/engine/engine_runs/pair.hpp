@@ -35,7 +35,10 @@ class Pair {
       measured + timing.known_for;  ///< a tick's watch is looked at after it
 
   explicit Pair(std::uint64_t seed, unsigned max_age = 4000)
-      : by_clock(max_age, 21, timing), by_event(max_age, 21, timing), random_(seed), next_(draw()) {}
+      : by_clock(max_age, 21, timing),
+        by_event(max_age, 21, timing),
+        random_(seed),
+        next_(draw()) {}
 
   Runs by_clock, by_event;
   In in;  ///< of a host; what the axes show is added
@@ -179,8 +182,7 @@ class Pair {
     const int from = clock_;
     int to = static_cast<int>(std::min<std::int64_t>(timing.clocks_per_tick, from + left));
     if (!by_event.enter(input(), from)) return 0;
-    const bool takes = from <= taken && taken < to,
-               measures = from <= measured && measured < to;
+    const bool takes = from <= taken && taken < to, measures = from <= measured && measured < to;
     if (measures && !by_event.may_tick(measured - from)) {
       by_event.give_up();
       return 0;

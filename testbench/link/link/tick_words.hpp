@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The words of the snapshot by number, tick by tick, each told apart from all others. They come in any
-// order; the status is the last.
-// Documentation: docs/link.md
+// The words of the snapshot by number, tick by tick, each told apart from all others. They come in
+// any order; the status is the last. Documentation: docs/link.md
 #pragma once
 
 #include <array>

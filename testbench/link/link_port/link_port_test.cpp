@@ -31,8 +31,9 @@ using Design = Lever;
 #endif
 struct Twin : LinkPort<> {
   Twin()
-      : LinkPort<>({true, 2, 0x80a06U, Design::design_crc, static_cast<std::uint32_t>(Design::clock_hz),
-                    Design::clocks_per_tick, Design::engine != 0}) {}
+      : LinkPort<>({true, 2, 0x80a06U, Design::design_crc,
+                    static_cast<std::uint32_t>(Design::clock_hz), Design::clocks_per_tick,
+                    Design::engine != 0}) {}
 };
 
 struct Adapter {

@@ -69,8 +69,8 @@ struct Stimulus {
     for (std::size_t n = 0; n < AXES; ++n) {
       if (words[n].tick() != tick) continue;
       in.last = false;
-      const auto word = words[n].next(
-          [n](std::uint32_t t, int k) { return word_of(static_cast<int>(n), t, k); });
+      const auto word =
+          words[n].next([n](std::uint32_t t, int k) { return word_of(static_cast<int>(n), t, k); });
       in.word_valid[n] = word.valid;
       in.word_number[n] = word.number;
       in.word_data[n] = word.data;
@@ -89,7 +89,8 @@ struct Stimulus {
 
 }  // namespace
 
-// The device around it has the same reset, so no words come amid one: the runs have that at the start.
+// The device around it has the same reset, so no words come amid one: the runs have that at the
+// start.
 TEST_CASE("link_view: random words, events and choices") {
   Bench bench("link_view", 1);
   bench.run(Stimulus(2, false, false, true), scaled_clocks(400'000));

@@ -29,6 +29,15 @@ struct ParamsMemory {
       formats.load(p, w.address, w.reset);
     }
   }
+  /// Whether all checks are right, and each common word is in its register.
+  bool agrees(const WordFormats& formats) const {
+    for (int address = 0; address < 512; ++address) {
+      const std::uint32_t of = word(address);
+      if (ram[static_cast<std::size_t>(address)] != checked(of)) return false;
+      if (address < 64 && !formats.holds(p, address, of)) return false;
+    }
+    return true;
+  }
   /// Fault injection: inverts a bit of a word, or from bit 32 on of its check.
   void flip(int address, int bit) {
     ram[static_cast<std::size_t>(address)] ^= std::uint64_t{1} << bit;
@@ -68,6 +77,7 @@ class Params {
     if (write) {
       m.ram[static_cast<std::size_t>(address)] = ParamsMemory::checked(data);
       if (address >= 64) m.scene = -1;
+      m.whole = m.whole || m.agrees(formats);
     }
   }
   /// All clocks of a tick without a write, if RAM and registers agree; then settle().

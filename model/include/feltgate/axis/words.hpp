@@ -128,6 +128,9 @@ struct WordFormats {
     int bits = 32;
     bool has_sign = false;
     std::uint32_t above = 0;  ///< bits that equal the sign, or 0
+    std::int64_t value(std::uint32_t word) const {
+      return has_sign ? signed_bits(word, bits) : low_bits(word, bits);
+    }
   };
   std::array<Format, 512> at{};
   int torque_bits;
@@ -142,7 +145,12 @@ struct WordFormats {
   /// A word of all scenes into its register.
   void load(Words<std::int64_t>& p, int address, std::uint32_t word) const {
     const Format& f = at[static_cast<std::size_t>(address)];
-    if (f.to != nullptr) p.*f.to = f.has_sign ? signed_bits(word, f.bits) : low_bits(word, f.bits);
+    if (f.to != nullptr) p.*f.to = f.value(word);
+  }
+  /// Whether load() would change nothing.
+  bool holds(const Words<std::int64_t>& p, int address, std::uint32_t word) const {
+    const Format& f = at[static_cast<std::size_t>(address)];
+    return f.to == nullptr || p.*f.to == f.value(word);
   }
   /// A word of the scene in force, by its place in the scene's bank.
   void load_scene(Words<std::int64_t>& p, int place, std::uint32_t word) const {

@@ -3,13 +3,12 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Each block has one name everywhere: fails when a block lacks one of its files.
 
-Every rtl/core/<room>/<b>.sv, rtl/link/<b>.sv and so on has a twin, testbench/<room>/<b>/<b>_test.cpp,
+Every block beside the core (rtl/link/<b>.sv and so on) has a twin, testbench/<room>/<b>/<b>_test.cpp,
 at least one seeded defect, and a page that links its RTL; blocks that help one another share a page. The twin is
 the class with the block's name. It is in model/include/feltgate/<b>.hpp if the product uses it, else in the test, or
-beside it in <b>_twin.hpp where several tests use it (those of the scenes in one file); then the law that it
-evaluates, if any, is in the former.
-Further checks: a strobe is connected to the clock of its name, and the lists made from the blocks are up to date:
-docs/blocks.md, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
+beside it in <b>_twin.hpp where several tests use it; then the law that it evaluates, if any, is in the former.
+Further checks: the lists made from the blocks are up to date: the sources in rtl/*.f, feltgate.core and the
+boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
   check_blocks.py --write   write the lists again, then check
@@ -25,23 +24,11 @@ from pathlib import Path
 from seeded_defects import patches
 import rtl_sources
 
-EXEMPT = {*rtl_sources.CELL_WRAPPERS, *rtl_sources.NO_BLOCKS}
 BOARD_DESIGN = "lever"
-SCENE_TWINS = Path("testbench/scenes/scenes/scene_twins.hpp")
+PARTS = ("axes_member",)  # of a block whose twin and test are theirs too
 BEGIN = "# sources: written by scripts/check_blocks.py --write"
 END = "# end of sources"
 MEND_LIST = "run scripts/check_blocks.py --write"
-# Strobes of a block, docs/architecture.md: the clock of each kind.
-STROBES = {
-    "at": "EVENT_AT_{}",
-    "after": "EVENT_AT_{}+1",
-    "param_is": "PARAM_AT_{}",
-    "param_next": "PARAM_AT_{}-1",
-    "param_was": "PARAM_AT_{}+1",
-    "product_is": "PRODUCT_AT_{}",
-    "read": "READ_AT_{}",
-}
-STROBE = re.compile(rf"\.({'|'.join(STROBES)})_(\w+)_i\(\w+\[([^\]]+)\]\)")
 
 
 @dataclass(frozen=True)
@@ -73,7 +60,7 @@ def has_class(path, name):
 def page_links(root):
     """{page: files that it links}, pages of blocks first."""
     found = [*sorted(root.glob("docs/blocks/*.md")), *sorted(root.glob("docs/*.md"))]
-    found = [path.relative_to(root) for path in found if path != root / "docs/blocks.md"]
+    found = [path.relative_to(root) for path in found]
     return {page: linked_files(root, page) for page in found}
 
 
@@ -90,16 +77,15 @@ def find_blocks(root):
     blocks, pages = [], page_links(root)
     for name, path in rtl_sources.module_files(root).items():
         rtl = root / "rtl" / path
-        code = rtl_sources.code_only(rtl.read_text(encoding="utf-8"))
+        if path.split("/")[0] in (*rtl_sources.CORE_FOLDERS, "options") or name in PARTS:
+            continue
         if path.startswith("engine/") and name != "engine":
             continue  # a part: twin, test, page and defects are the engine's
-        if name in EXEMPT or not re.search(r"^\s*module\b", code, re.M):
-            continue  # a package
         room = rtl_sources.room_of(path)
         folder = Path("testbench", room, name)
         test = folder / f"{name}_test.cpp"
         public = Path(f"model/include/feltgate/{name}.hpp")
-        places = (test, folder / f"{name}_twin.hpp", SCENE_TWINS)
+        places = (test, folder / f"{name}_twin.hpp")
         beside = next((path for path in places if has_class(root / path, name)), None)
         blocks.append(
             Block(
@@ -138,7 +124,7 @@ def check_defects(root):
     """Each defect is well-formed, and a test is built with it; those for proofs are in their list."""
     for file in sorted(root.glob("testbench/**/*.diff")):
         rules = file.parent / "CMakeLists.txt"
-        proofs = file.parent / "proofs/proofs.toml"
+        proofs = file.parent / ("" if file.parent.name == "proofs" else "proofs") / "proofs.toml"
         proven = proofs.read_text(encoding="utf-8") if proofs.exists() else ""
         room = file.parents[1] / "CMakeLists.txt"
         if not rules.exists() and room.exists():
@@ -146,7 +132,8 @@ def check_defects(root):
         text = rules.read_text(encoding="utf-8") if rules.exists() else ""
         built = "WITH_DEFECTS|feltgate_defect_"
         if rules == room:  # it names the file, or a module does; or its calls for the block say so; or it names the defect
-            modules = "".join(module.read_text(encoding="utf-8") for module in file.parent.glob("*.cmake"))
+            beside = (*file.parent.glob("*.cmake"), *file.parent.glob("*_test.py"))
+            modules = "".join(module.read_text(encoding="utf-8") for module in beside)
             own = rf"feltgate_block_test\((?:{file.parent.name}|\$\{{block\}})\s[^)]*"
             calls = "".join(re.findall(own, text))
             if f"{file.parent.name}/{file.name}" in text or f"/{file.name}" in modules:
@@ -177,41 +164,9 @@ def linked_files(root, page):
     return links
 
 
-def blocks_table(root, blocks):
-    def link(path):
-        return "" if path is None else f"[{path.name}]({os.path.relpath(path, 'docs')})"
-
-    rows = [
-        f"| {b.room} | {b.name} | {link(b.rtl)} | {link(b.law)} | {link(b.twin)} | {link(b.test)} "
-        f"| {link(b.doc)} | {len(b.defects)} |"
-        for b in blocks
-    ]
-    return "\n".join(
-        [
-            "# Blocks",
-            "",
-            "Every block has one name everywhere, and its room is the folder of its RTL (`rtl/core/ROOM` or",
-            "`rtl/ROOM`) and of its tests (`testbench/ROOM/BLOCK`). The last column counts the seeded defects of",
-            "its RTL; the block's test runs once against each and must fail. Written by",
-            "`scripts/check_blocks.py --write`, which also fails when a sibling is missing.",
-            "",
-            "The twin is a class of the block's name, clock by clock. Where the core's twin evaluates",
-            "a law instead, the law is a template in the public headers, and the class, which only",
-            "tests use, is beside its test. What was measured of each block: `./feltgate docs`, results.",
-            "",
-            "| room | block | RTL | law | twin | test | page | seeded defects |",
-            "|---|---|---|---|---|---|---|---|",
-            *rows,
-            "",
-        ]
-    )
-
-
 def sources(root):
     """RTL of the core with the boards' design, in order."""
-    generated = sorted(root.glob(f"rtl/generated/{BOARD_DESIGN}/*.sv"))
-    listed = [Path("rtl", name) for name in rtl_sources.core_files(root)]
-    return [*(path.relative_to(root) for path in generated), *listed]
+    return [Path(f"rtl/generated/{BOARD_DESIGN}/cfg.sv"), *(Path("rtl", name) for name in rtl_sources.core_files(root))]
 
 
 def linked_sources(root, board):
@@ -250,22 +205,16 @@ def fusesoc_lists(root, text):
     return text
 
 
-def fresh_lists(root, blocks):
+def fresh_lists(root):
     """(path, wanted text) of everything that is made from the blocks."""
-    yield Path("docs/blocks.md"), blocks_table(root, blocks)
     yield (
         Path("rtl/feltgate_core.f"),
-        file_list("The core; a design's feltgate_pkg.sv comes first", rtl_sources.core_files(root)),
+        file_list("The core; a design's cfg.sv comes first", rtl_sources.core_files(root)),
     )
-    if rtl_sources.cell_files(root):
-        yield (
-            Path("rtl/feltgate_ecp5.f"),
-            file_list("Beside it where FELTGATE_ECP5 is defined", rtl_sources.cell_files(root)),
-        )
     for folder, name in rtl_sources.FOLDERS.items():
         files = rtl_sources.folder_files(root, folder)
         if files:
-            head = f"The core with the blocks of {folder}/; a design's feltgate_pkg.sv comes first"
+            head = f"The core with the blocks of {folder}/; a design's cfg.sv comes first"
             yield Path(f"rtl/{name}.f"), file_list(head, [*rtl_sources.core_files(root), *files])
     core = root / "feltgate.core"
     if core.exists():
@@ -281,8 +230,8 @@ def fresh_lists(root, blocks):
         yield qsf.relative_to(root), replace_list(qsf.read_text(encoding="utf-8"), lines)
 
 
-def check_lists(root, blocks, write):
-    for path, wanted in fresh_lists(root, blocks):
+def check_lists(root, write):
+    for path, wanted in fresh_lists(root):
         if wanted is None:
             yield f"{path}: no lines '{BEGIN}' and '{END}'; put them back"
             continue
@@ -295,30 +244,16 @@ def check_lists(root, blocks, write):
             yield f"{path}: stale; {MEND_LIST}"
 
 
-def check_strobes(root):
-    """A strobe is connected to the clock of its name, in the rooms and around the blocks in proofs."""
-    files = [*root.glob("rtl/core/**/*.sv"), *root.glob("testbench/**/proofs/*.sv*")]
-    for path in sorted(files):
-        text = path.read_text(encoding="utf-8")
-        for found in STROBE.finditer(text):
-            kind, name, clock = found.groups()
-            wanted = STROBES[kind].format(name.upper())
-            if clock != f"feltgate_map_pkg::{wanted}":
-                line = text.count("\n", 0, found.start()) + 1
-                yield f"{path.relative_to(root)}:{line}: {kind}_{name}_i at {clock}; connect {wanted}"
-
-
 def check(root, write=False):
     blocks = find_blocks(root)
     found = [] if blocks else ["rtl: no blocks; is this the root of the repository?"]
-    found += check_lists(root, blocks, write)
+    found += check_lists(root, write)
     ordered, lost = rtl_sources.modules(root)
     for name in lost:
-        found.append(f"rtl/{ordered[name]}: the core does not instantiate it; do, or remove it")
+        found.append(f"rtl/{ordered[name]}: no device instantiates it; do, or remove it")
     for block in blocks:
         found += check_block(root, block)
     found += check_defects(root)
-    found += check_strobes(root)
     return found
 
 

@@ -32,8 +32,6 @@ import outputs
 from rtl_coverage import data, programs, report, waivers
 
 SCHEMA = "feltgate-coverage/1"
-CORE = "feltgate_core"
-
 
 def arguments(argv):
     parser = command_line.parser("coverage", __doc__)
@@ -79,7 +77,7 @@ def measure(options, root, build, folder):
         seconds[run.program.block] = seconds.get(run.program.block, 0.0) + run.seconds
     blocks = sorted({program.block for program in found})
     points = data.merged(run.counts for run in runs)
-    core = data.instances(run.counts for run in runs if run.program.block == CORE)
+    core = data.instances(run.counts for run in runs if run.program.block == data.CORE)
     return report.make(points, core, seconds, waivers.read(root), blocks)
 
 

@@ -54,6 +54,7 @@ program, a file or an argument is wrong.
 import json
 import os
 import sys
+from pathlib import Path
 
 import block_results
 import command_line
@@ -220,7 +221,7 @@ def report(options, root, faults, seconds):
 
         outputs.write_whole(options.picture, picture.draw(faults, options.picture.suffix[1:]))
     if options.update:
-        blocks = {rtl_sources.measured_as(path.stem) for path in (root / "rtl/core").rglob("*.sv")}
+        blocks = {rtl_sources.measured_as(Path(name).stem) for name in rtl_sources.core_files(root)}
         found = results.per_block(faults, blocks)
         if seconds:  # of all faults; what a block's share of it is nobody knows
             found.setdefault("feltgate_core", {})["seconds"] = round(seconds)
@@ -237,7 +238,7 @@ def injected(options, build):
     else:
         asked = {"design": options.design, "pins": options.pins, "seed": options.seed}
     # Near enough for a percentage; how many registers have a name nobody knows before.
-    total = 5100 * options.flips + options.doubles + options.pins
+    total = 5900 * options.flips + options.doubles + options.pins
     words = [word for name, value in asked.items() for word in (f"--{name}", value)]
     before = os.times()
     known = not options.only and options.design == "lever"

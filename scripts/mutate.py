@@ -17,8 +17,8 @@ a sample may miss it by three standard deviations. Method: docs/testing.md
 Exit code: 0 all reach the share, 1 one does not, 2 when a tool, a file or an argument is wrong.
 
   feltgate mutate                        all blocks
-  feltgate mutate limiter ramp           two blocks
-  feltgate mutate limiter --count 30     some of the mutants, chosen by --seed
+  feltgate mutate observer ramp          two blocks
+  feltgate mutate observer --count 30    some of the mutants, chosen by --seed
   feltgate mutate --twin ramp            200 mutants of a header
   feltgate mutate --twin ramp --list     all that there are; runs nothing
 """

@@ -20,9 +20,8 @@ import synth_measure
 from synth_tools import Tools, package_of, version
 
 EPILOG = """examples:
-  feltgate product verilog                                feltgate.v: design lever, with read-back
+  feltgate product verilog                                feltgate.v: design lever
   feltgate product verilog --design paper -o paper.v
-  feltgate product verilog --design my.toml --no-read-back -o my.v
   feltgate product board --design my.toml                 folder de0_nano_my: the DE0-Nano's project
   feltgate product fmu --scene wall                       wall.fmu: twin and plant for FMI 3.0
 
@@ -30,9 +29,9 @@ Exit code: 0 written, 2 a design, tool or option cannot be used."""
 NOTICE = """// SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core feltgate_core of design {design}, {read_back}read-back, in Verilog-2005: written from
-// its SystemVerilog by `feltgate product verilog` with {yosys}. Do not edit; ports and
-// their timing: docs/architecture.md.
+// The device {top} of design {design} in Verilog-2005: written from its SystemVerilog by
+// `feltgate product verilog` with {yosys}. Do not edit; a struct is a port of all its bits, the first
+// field on top; docs/architecture.md.
 """
 # What only Yosys reads.
 ATTRIBUTES = (
@@ -45,16 +44,11 @@ def arguments_of(argv):
     parser.add_argument("kind", choices=("verilog", "board", "fmu"), help="what to write")
     what = "a name in rtl/designs, or a file; default lever"
     parser.add_argument("--design", default="lever", help=what)
-    command_line.add_flags(
-        parser, no_read_back="leave out what a host reads: snapshot RAM and read path"
-    )
     what = "of an fmu: a name in vectors/scenes, or a file; default membrane"
     parser.add_argument("--scene", metavar="SCENE", help=what)
     what = "default feltgate.v; of a board a folder, default de0_nano_DESIGN; of an fmu SCENE.fmu"
     command_line.add_path(parser, "-o", "--output", what=what)
     options = parser.parse_args(argv)
-    if options.no_read_back and options.kind != "verilog":
-        parser.error("--no-read-back is of verilog; leave it out")
     if options.scene and options.kind != "fmu":
         parser.error("--scene is of an fmu; leave it out")
     if options.kind == "board":
@@ -69,13 +63,13 @@ def arguments_of(argv):
     return options
 
 
-def renamed(text):
+def renamed(text, top):
     """Every module but the core with feltgate_ before its name; variants get numbers."""
     names, counts = {}, {}
     for found in re.findall(r"^module (\S+?)\s*\(", text, re.M):
         word = found.lstrip("\\")
         base = re.search(r"(?:\$paramod(?:\$[0-9a-f]+)?\\)?([a-z]\w*)", word).group(1)
-        if base == rtl_sources.CORE:
+        if base == top:
             names[found] = base
             continue
         counts[base] = counts.get(base, 0) + 1
@@ -94,14 +88,12 @@ def verilog(root, options, folder):
     tools = Tools(folder)
     package = package_of(root, options.design, folder / "design")
     sources = synth_measure.copy_sources(root, package, folder)
-    target = synth_measure.Target("core", rtl_sources.CORE)
+    top = rtl_sources.top_of((folder / "cfg.sv").read_text(encoding="utf-8"))
     kept = " ".join(f"-unset {name}" for name in ATTRIBUTES)
     script = [
-        *synth_measure.read_commands(sources, target),
-        f"chparam -set ReadBack {int(not options.no_read_back)} {rtl_sources.CORE}",
-        f"hierarchy -check -top {rtl_sources.CORE}",
+        *synth_measure.read_commands(sources),
+        f"hierarchy -check -top {top}",
         "proc",
-        "delete */t:feltgate_checks =feltgate_checks",  # it has done its work
         "opt_expr",
         "opt_reduce",  # one enable for a word of a memory, not one for each bit
         "opt_clean",
@@ -118,12 +110,12 @@ def verilog(root, options, folder):
         "write_verilog core.v",
     ]
     tools.run_yosys("product", script, ["core.v"])
-    text = renamed((folder / "core.v").read_text(encoding="utf-8"))
+    text = renamed((folder / "core.v").read_text(encoding="utf-8"), top)
     # x for a collision that cannot be, which is no read that a vendor knows.
     text = re.sub(r"\n    if \([^\n]*\)\n      \S+ <= \d+'hx+;", "", text)
     head = NOTICE.format(
         design=Path(options.design).stem,
-        read_back="without " if options.no_read_back else "with ",
+        top=top,
         yosys=version(tools.yosys),
     )
     return head + text.partition("*/\n")[2]

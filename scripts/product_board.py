@@ -11,7 +11,8 @@ import shutil
 from pathlib import Path
 
 import outputs
-from synth_tools import ToolError, package_of
+import rtl_sources
+from synth_tools import ToolError, package_file, package_of
 
 BOARD = "de0_nano"
 CLOCK_HZ = 50_000_000
@@ -27,7 +28,7 @@ def design_files(root, design, folder):
     """The package and the parameters of one design, made together."""
     package = package_of(root, design, folder)
     if not isinstance(package, Path):
-        package = root / f"rtl/generated/{package}/feltgate_pkg.sv"
+        package = package_file(root, package, folder)
     return package, package.with_name("parameters.mem")
 
 
@@ -60,21 +61,23 @@ def write(root, design, output, temporary):
 
     def moved(found):
         source = Path(os.path.normpath(board / found[2]))
-        if source.name == "feltgate_pkg.sv":
+        if source.name == "cfg.sv":
             source = package
         if source.name in copied:
             raise ToolError(f"{BOARD}.qsf: two files {source.name}; rename one")
         copied[source.name] = source
         return f"{found[1]}rtl/{source.name}"
 
-    settings = SOURCE.sub(moved, settings)
-    if "feltgate_pkg.sv" not in copied:
-        raise ToolError(f"{BOARD}.qsf has no feltgate_pkg.sv among its sources; put it back")
+    settings = SOURCE.sub(moved, settings).replace("SEARCH_PATH ../../tops", "SEARCH_PATH rtl")
+    if "cfg.sv" not in copied:
+        raise ToolError(f"{BOARD}.qsf has no cfg.sv among its sources; put it back")
     for source in [*copied.values(), parameters]:
         shutil.copyfile(source, output / "rtl" / source.name)
+    device = output / "rtl" / Path(rtl_sources.INCLUDE).name
+    outputs.write_whole(device, rtl_sources.device_text(root, text))
     settings += (
         "\n# Where Quartus stops at the first values of the parameters, take them from the file, which is of the\n"
-        "# same design as rtl/feltgate_pkg.sv; never mix two folders:\n"
+        "# same design as rtl/cfg.sv; never mix two folders:\n"
         '# set_parameter -name ParameterFile "rtl/parameters.mem"\n'
     )
     outputs.write_whole(output / f"{BOARD}.qsf", settings)

@@ -3,13 +3,13 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Properties of blocks, proven for all inputs and all times by k-induction (Yosys, z3).
 
-A proof is a wrapper around a block, testbench/ROOM/BLOCK/proofs/NAME.sv, with assumptions about its
+A proof is a wrapper around a block, NAME.sv in its folder proofs, with assumptions about its
 inputs and named assertions. Four kinds of run decide it:
 
   base        no assertion fails in the first k clocks after a reset
   induction   k clocks in which all hold are followed by one in which they hold, so they always do
   covers      what the assumptions must still allow is reached: the proof is about something
-  defect      with a patch of the product (testbench/ROOM/BLOCK/defects.diff) the assertion fails
+  defect      with a patch of the product (defects.diff beside it) the assertion fails
 
 A counter-example is printed as a table of the wrapper's signals, the failing clock last.
 Table, assumptions and what is not proven: docs/testing.md
@@ -18,8 +18,8 @@ Exit code: 0 all is proven and every defect is caught, 1 something is not, 2 whe
 an argument is wrong.
 
   feltgate prove                         all proofs
-  feltgate prove limiter quad_decoder    those of two blocks
-  feltgate prove limiter.clamp           one proof
+  feltgate prove safety quad_decoder     those of two blocks
+  feltgate prove safety.latch            one proof
   feltgate prove --list                  properties, defects and covers; runs nothing
 """
 

@@ -13,7 +13,9 @@ It knows only what others have reported: docs/boards/quartus.md names the report
 import sys
 from pathlib import Path
 
-from pyslang import syntax
+from pyslang import SourceManager, syntax
+
+INCLUDED = Path(__file__).resolve().parents[1] / "rtl/tops"  # device.svh
 
 Kind = syntax.SyntaxKind
 
@@ -118,7 +120,9 @@ def check(path):
     """Complaints of a file, as lines."""
     # In a line of its own before the first: what is for simulation only is not looked at.
     text = "`define SYNTHESIS\n" + path.read_text(encoding="utf-8")
-    tree = syntax.SyntaxTree.fromText(text, str(path))
+    sources = SourceManager()
+    sources.addUserDirectories(str(INCLUDED))
+    tree = syntax.SyntaxTree.fromText(text, sources, str(path))
     nodes, functions, found = [], set(), []
 
     def look(node):

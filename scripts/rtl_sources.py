@@ -5,21 +5,44 @@ after the modules that it instantiates. scripts/check_blocks.py writes the lists
 
 import re
 
-CORE = "feltgate_core"
-CELL_WRAPPERS = ("mult18_ecp5",)  # one cell of one vendor: no other vendor's source
-# Folders of blocks beside the core: the list of all files up to them, and the package that they add.
-FOLDERS = {"link": "feltgate_linked", "bus": "feltgate_bus", "engine": "feltgate_engine", "axes": "feltgate_axes"}
+CORE = "lever_top"  # the default device
+CORE_FOLDERS = ("core", "safety", "host", "tops")  # what it is made of
+CORE_PACKAGES = ("generated/map.sv", "core/fx.sv")  # behind the design's cfg.sv
+INCLUDE = "tops/device.svh"  # which device stands in axes, link and boards
+# Folders beside the core: the list of all files up to them, and the package that they add.
+FOLDERS = {"options": "feltgate_options", "link": "feltgate_linked", "bus": "feltgate_bus",
+           "engine": "feltgate_engine", "axes": "feltgate_axes"}
 PACKAGES = {"link": "feltgate_link_pkg", "engine": "feltgate_engine_pkg"}
 NEEDS = {"axes": "engine", "link": "axes"}  # a folder whose blocks instantiate those of another
-# Rooms of the core below rtl/core, in the order of the data; the tests have the same: testbench/ROOM/BLOCK.
-ROOMS = ("encoder", "estimators", "scenes", "actuation", "safety", "wave")
-# Modules that connect blocks, with little of their own: rooms, of which scenes is a block itself, and a part of actuation.
-WIRED_ROOMS = (*(room for room in ROOMS if room != "scenes"), "current_loop")
-# Without a twin and a test of their own: one is elaborated, never clocked; a room is tested by the core's test.
-NO_BLOCKS = ("feltgate_checks", *WIRED_ROOMS)
-# Blocks that the core has only in some designs.
-DROP_INS = ("absolute_encoder", "current_sense", "current_control", "current_check", "commutation", "pwm_three_phase",
-            "field_oriented")
+# Modules that connect blocks, with little of their own: the core's test is theirs.
+WIRED_ROOMS = ("axis", "host", "safety", "quadrature", "h_bridge")
+# The options that a device has, by the constants of its package; without one it is the lever.
+DEVICES = (
+    ("FELTGATE_GIMBAL_CURRENT", {"ABSOLUTE_ENCODER": 1, "PHASES": 3, "CURRENT_LOOP": 1}),
+    ("FELTGATE_GIMBAL_MOTOR", {"ABSOLUTE_ENCODER": 1, "PHASES": 3}),
+    ("FELTGATE_LEVER_ABSOLUTE", {"ABSOLUTE_ENCODER": 1}),
+    ("FELTGATE_HALL_MOTOR", {"PHASES": 3}),
+    ("FELTGATE_LEVER_CURRENT", {"CURRENT_LOOP": 1}),
+)
+
+
+def device_of(package):
+    """The define by which device.svh chooses the device of a design, of whose package this is the text; "": the lever."""
+    def has(option, value):
+        return re.search(rf"\bint {option} = {value};", package)
+
+    return next((name for name, options in DEVICES if all(has(*option) for option in options.items())), "")
+
+
+def device_text(root, package):
+    """device.svh with the device of the design, of whose package this is the text."""
+    define = device_of(package)
+    return (f"`define {define}\n" if define else "") + (root / "rtl" / INCLUDE).read_text(encoding="utf-8")
+
+
+def top_of(package):
+    """The top of rtl/tops of a design, of whose package this is the text."""
+    return (device_of(package).removeprefix("FELTGATE_").lower() or "lever") + "_top"
 
 
 def code_only(text):
@@ -34,12 +57,12 @@ def instantiated(text, names):
 
 
 def measured_as(module):
-    """The block whose results, coverage and mutants those of a module's own lines are: of a room the core."""
+    """The block whose results, coverage and mutants those of a module's own lines are: of wires the core."""
     return CORE if module in WIRED_ROOMS else module
 
 
 def room_of(path):
-    """The room of a file below rtl/: of core/scenes/x.sv scenes, of core/x.sv core, of link/x.sv link."""
+    """The room of a file below rtl/: of core/x.sv core, of link/x.sv link."""
     return path.split("/")[-2]
 
 
@@ -49,16 +72,15 @@ def tests_of(root, block):
 
 
 def module_files(root):
-    """{name: path below rtl/} of the core's modules, by rooms, and of those of FOLDERS."""
+    """{name: path below rtl/} of all modules, those of the core first."""
     rtl = root / "rtl"
-    rooms = sorted({p.parent.name for p in rtl.glob("core/*/*.sv")} - set(ROOMS))  # not in the order yet
-    folders = ["core", *(f"core/{room}" for room in (*ROOMS, *rooms)), *FOLDERS]
-    files = [path for folder in folders for path in sorted(rtl.glob(f"{folder}/*.sv"))]
-    return {p.stem: str(p.relative_to(rtl)) for p in files if p.stem not in CELL_WRAPPERS}
+    files = [path for folder in (*CORE_FOLDERS, *FOLDERS) for path in sorted(rtl.glob(f"{folder}/*.sv"))]
+    names = {p.stem: str(p.relative_to(rtl)) for p in files}
+    return {name: path for name, path in names.items() if path not in CORE_PACKAGES}
 
 
 def modules(root):
-    """{name: path below rtl/} of the modules in order, and those of the core's that it does not reach."""
+    """{name: path below rtl/} of the modules, each after those that it instantiates; those that no top reaches."""
     paths = module_files(root)
     texts = {name: (root / "rtl" / path).read_text(encoding="utf-8") for name, path in paths.items()}
     ordered = {}
@@ -70,34 +92,26 @@ def modules(root):
             visit(below, above | {name})
         ordered[name] = paths[name]
 
-    if CORE in paths:
-        visit(CORE, frozenset())
-    reached = set(ordered)
+    tops = [name for name, path in paths.items() if path.startswith("tops/")]
+    for name in (CORE, *tops):
+        visit(name, frozenset())
+    lost = [name for name, path in paths.items() if path.split("/")[0] in (*CORE_FOLDERS, "options") and name not in ordered]
     for name in paths:
         visit(name, frozenset())
-    lost = [name for name, path in paths.items()
-            if CORE in paths and name not in {*reached, *DROP_INS} and path.startswith("core/")]
     return ordered, lost
 
 
 def core_files(root):
-    """Files of the core below rtl/ that are equal in all designs, in order."""
-    beside = {f"{package}.sv" for package in PACKAGES.values()}
-    packages = sorted(path.name for path in root.glob("rtl/generated/*_pkg.sv"))
-    listed = [f"generated/{name}" for name in packages if name not in beside]
-    return [*listed, *(path for path in modules(root)[0].values() if path.startswith("core/"))]
+    """Files of the default device below rtl/ that are equal in all designs, in order."""
+    ordered, _ = modules(root)
+    return [*CORE_PACKAGES, *list(ordered.values())[: list(ordered).index(CORE) + 1]]
 
 
 def folder_files(root, folder):
     """Files below rtl/ that the blocks of a folder add to the core's, in order."""
-    files = [path for path in modules(root)[0].values() if path.startswith(f"{folder}/")]
+    of = ("options", "tops") if folder == "options" else (folder,)
+    core = core_files(root)
+    files = [path for path in modules(root)[0].values() if path.split("/")[0] in of and path not in core]
     package = [f"generated/{PACKAGES[folder]}.sv"] if folder in PACKAGES else []
     needed = folder_files(root, NEEDS[folder]) if folder in NEEDS else []
-    return [*needed, *package, *files] if files else []
-
-
-def cell_files(root):
-    """Files below rtl/ that a vendor's cells need beside them."""
-    rtl = root / "rtl"
-    found = [path for name in CELL_WRAPPERS for path in rtl.glob(f"core/*/{name}.sv")]
-    return [str(path.relative_to(rtl)) for path in found]
+    return [*needed, *package, *files]

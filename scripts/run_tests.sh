@@ -29,7 +29,7 @@ a run of all tests says how long each group of them took. Exit code: 0 none fail
 
   ./feltgate test                 all of them: 45 minutes on two cores, the build included
   ./feltgate test scene.wall      what the scene 'wall' is tested with
-  ./feltgate test '^mult\.'       must fail inside to pass: the seeded defects of one block
+  ./feltgate test '^uart_tx\.'    must fail inside to pass: the seeded defects of one block
 TEXT
 }
 

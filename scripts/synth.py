@@ -7,7 +7,7 @@ Yosys and nextpnr only: nothing here ran on a chip. Recipe and figures: docs/syn
 Exit code: 0 within the budget (docs/verification/areas.json), 1 when a figure has grown past it,
 2 when a tool or an argument is wrong. Of a board 1 too where its timing does not close.
 
-  feltgate synth                                   all blocks of both designs, against the budget
+  feltgate synth                                   all blocks of lever, against the budget
   feltgate synth --design lever --block core --json core.json
   feltgate synth --board ulx3s --design my.toml    a bitstream, where the timing closes
   feltgate synth --board tang_nano_9k              the same for Gowin: design lever at 54 MHz
@@ -34,7 +34,7 @@ SCHEMA = "feltgate-synth/1"
 def arguments():
     parser = command_line.parser("synth", __doc__)
     add = {"action": "append"}
-    what = "a design point or a file of your own; default: lever, paper; with --board lever"
+    what = "a design point or a file of your own; default: lever"
     parser.add_argument("--design", metavar="DESIGN", help=what, **add)
     what = "a block, or 'core'; default: all; of several the sum too, each as often as named"
     parser.add_argument("--block", metavar="BLOCK", help=what, **add)
@@ -86,7 +86,7 @@ def update(root, measured, tools):
 
 
 def measure(options, root):
-    designs = options.design or ["lever", "paper"]
+    designs = options.design or ["lever"]
     rows = chosen(root, options.block)
     seeds = [int(seed) for seed in options.seeds.split(",")]
     keep = os.environ.get("FELTGATE_BUILD")

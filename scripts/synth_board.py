@@ -33,7 +33,7 @@ EP4CE22_BITS = EP4CE22["m9k"] * 9216
 
 
 def of_package(folder, name):
-    return int(re.search(rf"int {name} = (\d);", (folder / "feltgate_pkg.sv").read_text(encoding="utf-8"))[1])
+    return int(re.search(rf"int {name} = (\d);", (folder / "cfg.sv").read_text(encoding="utf-8"))[1])
 
 
 def legs(folder):
@@ -54,7 +54,7 @@ def sources(root, board, design, folder):
 
 
 def clock_hz(folder):
-    text = (folder / "feltgate_pkg.sv").read_text(encoding="utf-8")
+    text = (folder / "cfg.sv").read_text(encoding="utf-8")
     return int(re.search(r"\bCLOCK_HZ = (\d+);", text).group(1))
 
 
@@ -94,7 +94,6 @@ class Ulx3s:
     chip, packed, clock_hz = "LFE5U-85F", "bit", None
     there = {"lut4_equivalents": 83640, "ff": 83640, "mult18": 156, "bram": 208}
     names = ("LUT4 equivalents", "flip-flops", "MULT18X18D", "DP16KD")
-    registered = True
 
     def synthesize(self, tools, read):
         return synth_measure.ecp5_figures(tools.synthesize_ecp5("board", "ulx3s", read))
@@ -103,7 +102,7 @@ class Ulx3s:
         # The gates' registers into the I/O cells: nextpnr reads it from the cell.
         tools.write_netlist(
             "board",
-            "select -set gates w:gate_?_?? %ci1 t:TRELLIS_FF %i",
+            "select -set gates w:gate_?_??_o %ci1 t:TRELLIS_FF %i",
             f"select -assert-count {2 * legs(tools.folder)} @gates",
             'setattr -set syn_useioff 1 -set ioff_dir "output" @gates',
         )
@@ -130,7 +129,6 @@ class TangNano9k:
     chip, packed, clock_hz = "GW1NR-9C", "fs", 54_000_000
     there = {"lut4_equivalents": 8640, "ff": 6480, "mult18": 20, "bram": 26}
     names = ("LUT4 equivalents", "flip-flops", "MULT18X18", "BSRAM")
-    registered = False
 
     def synthesize(self, tools, read):
         return synth_measure.gowin_figures(tools.synthesize_gowin("board", "tang_nano_9k", read))
@@ -250,9 +248,8 @@ def run(options, root, progress):
         steps = ROUTED.get(options.board)
         design = with_clock(root, design, steps and steps.clock_hz, folder / "design")
         package = package_of(root, design, folder / "design")
-        target = synth_measure.Target("board", options.board, registered=bool(steps) and steps.registered)
         names = sources(root, options.board, package, folder)
-        read = synth_measure.read_commands(names, target)
+        read = synth_measure.read_commands(names)
         progress(f"{options.board}, design {name}: synthesis, then seeds {options.seeds}")
         print(f"{options.board}, design {name}; nothing of this ran on a board")
         main = main_routed if steps else main_de0_nano

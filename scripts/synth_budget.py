@@ -20,7 +20,7 @@ FILE = "docs/verification/areas.json"
 
 def read(path):
     if not path.exists():
-        return {"measured": {}, "figures": {}, "scene_sets": {}}
+        return {"measured": {}, "figures": {}}
     return json.loads(path.read_text(encoding="utf-8"))
 
 

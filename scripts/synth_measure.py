@@ -11,41 +11,26 @@ from pathlib import Path
 
 import rtl_sources
 import synth_path
+import synth_tools
 
 CORE = rtl_sources.CORE
 AXES = "feltgate_axes"
 LINKED = "feltgate_linked"
-CELL_WRAPPER = rtl_sources.CELL_WRAPPERS[0]
-SCENE_ROW = "core without read-back, registered"
+SCENE_ROW = "core without read-back"
 # On a board nobody looks at these: they are there for simulation, or repeat what the register port
 # reads. Everything that only they need is left out of the core's figures.
-SNAPSHOT_PORTS = (
-    "snapshot_valid_o tick_count_o position_o velocity_o tau_hat_o tau_ref_o current_ref_o "
-    "voltage_o duty_o duty_active_o word_valid_o word_slot_o word_data_o arm_request_o ready_o testing_o "
-    "measured_o zeroed_o current_clock_o current_o heartbeat_o encoder_select_no encoder_clock_o encoder_command_o "
-    "gate_c_hi_o gate_c_lo_o"
+SNAPSHOT_PORTS = "tick_o snapshot_o word_o duty_active_o zeroed_o".split()
+AXES_PORTS = (
+    "snapshot_valid_o last_o tick_count_o position_o velocity_o tau_hat_o tau_ref_o current_ref_o voltage_o duty_o "
+    "duty_active_o word_valid_o word_slot_o word_data_o measured_o zeroed_o"
 ).split()
 # Inputs of a core that is alone and has no engine.
-ALONE = (
-    "law_torque_i law_late_i law_restart_i axis_fault_i axis_silent_i axis_blocked_i "
-    "axis_testing_i axis_waits_i current_data_i driver_fault_i encoder_data_i hall_i"
-).split()
-# Pins of an option of the design, which count where it has the option.
-OPTION_PINS = {
-    "CURRENT_LOOP": ("current_data_i", "current_clock_o"),
-    "DRIVER_FAULT": ("driver_fault_i",),
-    "HEARTBEAT": ("heartbeat_o",),
-    "ABSOLUTE_ENCODER": ("encoder_data_i", "encoder_select_no", "encoder_clock_o", "encoder_command_o"),
-    "HALL": ("hall_i",),
-    "PHASES": ("gate_c_hi_o", "gate_c_lo_o"),
-}
-WITHOUT = {"PHASES": 2}  # what a design without the option says, if not 0
+ALONE = ("law_i", "peers_i")
 # Parameters that the core sets and a block alone would not have.
 BLOCK_PARAMETERS = {
-    **dict.fromkeys(("pwm", "pwm_three_phase"), {"Period": "feltgate_pkg::PWM_PERIOD", "DeadClocks": "feltgate_pkg::DEAD_CLOCKS",
-        "ShortestClocks": "feltgate_pkg::SHORTEST_CLOCKS"}),
-    **dict.fromkeys(("commutation", "field_oriented"), {"Period": "feltgate_pkg::PWM_PERIOD"}),
-    "sequencer": {"ClocksPerTick": "feltgate_pkg::CLOCKS_PER_TICK"},
+    **dict.fromkeys(("pwm", "pwm_three_phase"), {"Period": "cfg::PWM_PERIOD", "DeadClocks": "cfg::DEAD_CLOCKS",
+        "ShortestClocks": "cfg::SHORTEST_CLOCKS"}),
+    **dict.fromkeys(("commutation", "field_oriented"), {"Period": "cfg::PWM_PERIOD"}),
 }
 
 
@@ -56,7 +41,6 @@ class Target:
     name: str
     module: str
     parameters: dict = field(default_factory=dict)
-    registered: bool = False  # MULT18X18D with its own registers
     open_ports: tuple = ()
     tied_ports: tuple = ()  # to 0
 
@@ -68,29 +52,13 @@ def core_sources(root):
 
 
 def targets(root):
-    rows = []
-    for source in core_sources(root):
-        name = Path(source).stem
-        if name == CORE or name.endswith("_pkg") or name in rtl_sources.NO_BLOCKS:
-            continue
-        if name == "mult":
-            rows.append(Target("mult, registered", name, registered=True))
-            rows.append(Target("mult, inferred", name))
-        else:
-            rows.append(Target(name, name, BLOCK_PARAMETERS.get(name, {})))
-    for read_back, how in ((0, "without read-back"), (1, "with read-back")):
-        for registered, which in ((True, "registered"), (False, "inferred")):
-            rows.append(
-                Target(
-                    f"core {how}, {which}",
-                    CORE,
-                    {"ReadBack": str(read_back)},
-                    registered,
-                    tuple(SNAPSHOT_PORTS),
-                    tuple(ALONE),
-                )
-            )
-    return rows
+    names = [Path(source).stem for source in core_sources(root)]
+    rows = [Target(name, name, BLOCK_PARAMETERS.get(name, {}))
+            for name in names if name not in (CORE, "map", "fx", *rtl_sources.WIRED_ROOMS)]
+    return rows + [
+        Target(SCENE_ROW, CORE, {}, (*SNAPSHOT_PORTS, "reg_rdata_o"), ALONE),
+        Target("core with read-back", CORE, {}, tuple(SNAPSHOT_PORTS), ALONE),
+    ]
 
 
 def beside_sources(root):
@@ -101,10 +69,11 @@ def beside_sources(root):
 
 def beside_targets(root):
     """The blocks beside the core, each a row that is measured where it is asked for."""
-    names = [Path(path).stem for path in beside_sources(root) if "_pkg" not in path]
-    blocks = [Target(name, name, registered=name == LINKED) for name in names if name != AXES]
+    names = [Path(path).stem for path in beside_sources(root)
+             if "_pkg" not in path and path.split("/")[0] not in ("options", "tops")]
+    blocks = [Target(name, name) for name in names if name not in (AXES, "axes_member")]
     # The link of a design with one axis, beside which these are counted.
-    several = [Target(f"{name}, {count} axes", name, {"AxisCount": str(count)}, name == LINKED)
+    several = [Target(f"{name}, {count} axes", name, {"AxisCount": str(count)})
                for name, count in (("link_view", 3), (LINKED, 2), (LINKED, 3))]
     return blocks + several + axes_targets()
 
@@ -113,16 +82,13 @@ def axes_targets():
     """One to three axes, beside a core with read-back."""
     return [
         Target(
-            f"{count} {'axis' if count == 1 else 'axes'}, {which}",
+            f"{count} {'axis' if count == 1 else 'axes'}",
             AXES,
             {"AxisCount": str(count)},
-            registered,
-            tuple(set(SNAPSHOT_PORTS)
-                  - {"arm_request_o", "ready_o", "testing_o", "current_clock_o", "current_o", "heartbeat_o"}),
-            ("law_torque_i", "law_late_i", "law_restart_i", "reg_read_i", "encoder_data_i"),
+            tuple(AXES_PORTS),
+            ("law_torque_i", "law_late_i", "law_restart_i", "reg_read_i"),
         )
         for count in (1, 2, 3)
-        for registered, which in ((True, "registered"), (False, "inferred"))
     ]
 
 
@@ -137,18 +103,24 @@ def copy_sources(root, design, folder):
     DESIGN is the name of a generated design, or the path of a package.
     """
     is_path = isinstance(design, Path)
-    package = design if is_path else root / f"rtl/generated/{design}/feltgate_pkg.sv"
-    names = [*rtl_sources.cell_files(root), *core_sources(root), *beside_sources(root)]
-    shutil.copy(package, folder / "feltgate_pkg.sv")
+    package = design if is_path else synth_tools.package_file(root, design, folder / "design")
+    names = [*core_sources(root), *beside_sources(root)]
+    shutil.copy(package, folder / "cfg.sv")
     for name in names:
         shutil.copy(root / "rtl" / name, folder)
-    return ["feltgate_pkg.sv", *(Path(name).name for name in names)]
+    device = rtl_sources.device_text(root, package.read_text(encoding="utf-8"))
+    (folder / Path(rtl_sources.INCLUDE).name).write_text(device, encoding="utf-8")
+    return ["cfg.sv", *(Path(name).name for name in names)]
 
 
-def read_commands(sources, target):
-    define = "-DFELTGATE_ECP5 " if target.registered else ""
-    wanted = [s for s in sources if target.registered or s != f"{CELL_WRAPPER}.sv"]
-    return [f"read_verilog -sv {define}{name}" for name in wanted]
+def read_commands(sources):
+    return [f"read_verilog -sv {name}" for name in sources]
+
+
+def of_design(target, folder):
+    """The target, of the core the top of the design in the folder."""
+    top = rtl_sources.top_of((folder / "cfg.sv").read_text(encoding="utf-8"))
+    return replace(target, module=top) if target.module == CORE else target
 
 
 def instance(target, connections):
@@ -195,17 +167,6 @@ def speed_top(target, ports):
   {instance(target, connections)}
 endmodule
 """
-
-
-def with_option_pins(target, package):
-    """The target of a design whose package has this text: the pins of its options are pins."""
-    used = {pin for option, pins in OPTION_PINS.items() for pin in pins
-            if not re.search(rf"int {option} = {WITHOUT.get(option, 0)};", package)}
-    return replace(
-        target,
-        open_ports=tuple(p for p in target.open_ports if p not in used),
-        tied_ports=tuple(p for p in target.tied_ports if p not in used),
-    )
 
 
 def file_name(target):
@@ -255,13 +216,12 @@ def write_tops(tools, name, target, read):
 def measure(tools, root, design, target, seeds):
     """Figures of one target: a dictionary whose keys are those of docs/synthesis.md's JSON."""
     name = file_name(target)
-    read = read_commands(copy_sources(root, design, tools.folder), target)
-    target = with_option_pins(target, (tools.folder / "feltgate_pkg.sv").read_text(encoding="utf-8"))
+    read = read_commands(copy_sources(root, design, tools.folder))
+    target = of_design(target, tools.folder)
     write_tops(tools, name, target, read)
     area = [*read, f"read_verilog -sv {name}_area.sv"]
     figures = ecp5_figures(tools.synthesize_ecp5(f"{name}_area", "area_top", area))
-    if not target.registered:  # the cell is an ECP5's
-        figures |= cyclone_figures(tools.synthesize_cyclone(f"{name}_c4e", "area_top", area))
+    figures |= cyclone_figures(tools.synthesize_cyclone(f"{name}_c4e", "area_top", area))
     if seeds:
         figures |= measure_speed(tools, name, read, seeds)
     return figures

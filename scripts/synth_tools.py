@@ -65,25 +65,36 @@ def require_current(root, *designs):
         raise ToolError(done.stderr.strip().splitlines()[-1])
 
 
-def package_of(root, design, folder):
-    """What synth_measure.copy_sources() takes of a design, a name in rtl/designs or the user's own file:
-    the name, or the path of a package made in FOLDER."""
-    if (root / f"rtl/generated/{design}/feltgate_pkg.sv").is_file():
-        require_current(root, design)
-        return design
-    path = Path(design)
-    if not path.is_file():
-        packages = root.glob("rtl/generated/*/feltgate_pkg.sv")
-        known = ", ".join(sorted(package.parent.name for package in packages))
-        raise ToolError(f"{design} is neither a design ({known}) nor a file; check the path")
-    if "FELTGATE_PROGRAM" not in os.environ:
-        raise ToolError("your own design needs the built generator: start it by ./feltgate")
-    generator = Path(os.environ["FELTGATE_PROGRAM"]).with_name("feltgate_generate")
+def made_package(root, path, folder):
+    """The cfg.sv of a design's file, with its parameters.mem, made in FOLDER."""
+    program = os.environ.get("FELTGATE_PROGRAM") or command_line.build_folder() / "feltgate"
+    generator = Path(program).with_name("feltgate_generate")
+    if not generator.is_file():
+        raise ToolError(f"{path.name} needs the built generator: start it by ./feltgate")
     command = [generator, root, "--design", path, "--output", folder]
     done = interrupts.run(command, **interrupts.CAPTURED)
     if done.returncode:
         raise ToolError(done.stderr.strip())
-    return folder / "feltgate_pkg.sv"
+    return folder / "cfg.sv"
+
+
+def package_file(root, design, folder):
+    """The cfg.sv of a design in rtl/designs, beside its parameters.mem: committed, or made in FOLDER."""
+    package = root / f"rtl/generated/{design}/cfg.sv"
+    return package if package.is_file() else made_package(root, root / f"rtl/designs/{design}.toml", folder)
+
+
+def package_of(root, design, folder):
+    """What synth_measure.copy_sources() takes of a design, a name in rtl/designs or the user's own file:
+    the name, or the path of a package made in FOLDER."""
+    if (root / f"rtl/designs/{design}.toml").is_file():
+        require_current(root, design)
+        return design
+    path = Path(design)
+    if not path.is_file():
+        known = ", ".join(sorted(file.stem for file in root.glob("rtl/designs/*.toml")))
+        raise ToolError(f"{design} is neither a design ({known}) nor a file; check the path")
+    return made_package(root, path, folder)
 
 
 class Tools:
@@ -209,8 +220,9 @@ class Tools:
     def ports(self, top, read, parameters=()):
         """(name, direction, width) of every port of TOP, with those of the PARAMETERS that are numbers."""
         name = f"{top}_ports"
-        values = [f" -chparam {n} {v}" for n, v in dict(parameters).items() if v.isdigit()]
-        script = [*read, f"hierarchy -top {top}{''.join(values)}", "proc", f"write_json {name}.json"]
+        # Not by hierarchy -chparam: Yosys 0.70 gives a module with arrays at its parts a second name, and stops.
+        values = [f"chparam -set {n} {v} {top}" for n, v in dict(parameters).items() if v.isdigit()]
+        script = [*read, *values, f"hierarchy -top {top}", "proc", f"write_json {name}.json"]
         self.run_yosys(name, script, [f"{name}.json"])
         modules = json.loads((self.folder / f"{name}.json").read_text(encoding="utf-8"))["modules"]
         found = next(m for m in modules.values() if int(m["attributes"].get("top", "0"), 2))

@@ -70,7 +70,7 @@ def sources():
     rtl = ROOT / "rtl"
     listed = (rtl / "feltgate_bus.f").read_text(encoding="utf-8").splitlines()
     files = [rtl / line for line in listed if line and not line.startswith("//")]
-    package = rtl / "generated" / DESIGN / "feltgate_pkg.sv"
+    package = rtl / "generated" / DESIGN / "cfg.sv"
     return [package, *files, ROOT / "docs/examples/wishbone_core.sv"]
 
 

@@ -7,7 +7,7 @@
 #include "feltgate/generated/lever.hpp"
 
 int main() {
-  feltgate::TwinDevice<feltgate::Lever> device;
+  feltgate::TwinDevice device(feltgate::design_info<feltgate::Lever>());
   device.select("wall");
   device.set("self_test_pulse", 0);  // no self-test, for the lever does not rest
   device.set("wall_contact", device.counts(0.2));

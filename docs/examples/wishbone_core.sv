@@ -41,26 +41,20 @@ module wishbone_core #(
     .reg_rdata_i(reg_rdata), .reg_busy_i(reg_busy)
   );
 
-  // The host alone arms and chooses: the panel's inputs are at rest.
+  // The host alone arms and chooses: the panel is at rest but for the stop.
+  cfg::panel_t panel;
+  cfg::safety_t safe;
+  assign panel   = {1'b0, stop_i, 1'b0, 4'd0};
+  assign armed_o = safe.armed;
   /* verilator lint_off PINCONNECTEMPTY */
-  feltgate_core u_core (
+  lever_top u_device (
     .clk_i(clk_i), .rst_ni(rst_ni),
     .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
     .gate_a_hi_o(gates_o[0]), .gate_a_lo_o(gates_o[1]), .gate_b_hi_o(gates_o[2]), .gate_b_lo_o(gates_o[3]),
-    // For a design without their options; one that has them needs these pins as ports of this module.
-    .gate_c_hi_o(), .gate_c_lo_o(), .hall_i(3'b000),
-    .encoder_data_i(1'b0), .encoder_select_no(), .encoder_clock_o(), .encoder_command_o(),
-    .current_data_i(1'b0), .current_clock_o(), .current_o(), .driver_fault_i(1'b0), .heartbeat_o(),
-    .arm_i(1'b0), .stop_i(stop_i), .set_zero_i(1'b0), .scene_i(4'd0),
-    .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
-    .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),
-    .arm_request_o(), .ready_o(), .testing_o(), .measured_o(), .zeroed_o(),
+    .panel_i(panel), .law_i({(cfg::TORQUE_W + 2){1'b0}}), .peers_i(5'd0),
     .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
     .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),
-    .snapshot_valid_o(), .tick_count_o(), .position_o(), .velocity_o(), .tau_hat_o(), .tau_ref_o(),
-    .current_ref_o(), .voltage_o(), .duty_o(), .scene_o(), .limits_o(), .faults_o(), .first_fault_o(),
-    .armed_o(armed_o), .duty_active_o(), .gates_enable_o(),
-    .word_valid_o(), .word_slot_o(), .word_data_o()
+    .tick_o(), .snapshot_o(), .safety_o(safe), .word_o(), .duty_active_o(), .zeroed_o()
   );
   /* verilator lint_on PINCONNECTEMPTY */
 

@@ -20,11 +20,6 @@ constexpr double kTurnRad = 2 * 3.14159265358979323846;
 /// Readings in which each fault is named, with a reading that begins just before it.
 constexpr int kReadingsToFault = 18;
 constexpr double kNamedIn_s = 2e-3;
-constexpr std::size_t kMostTerms = 32;
-/// The table: an entry has 16 bits with its sign. With half of this slope the shorter way around
-/// and the order of the angles stay what they are.
-constexpr double kMostError_mrad = 190, kMostSlope_mrad = 500;
-
 /// Of a reading: the noise of two, and rounding.
 constexpr int kNoise_counts = 2;
 
@@ -33,31 +28,16 @@ bool is_whole(double value) { return std::abs(value - std::round(value)) < 1e-6;
 
 /// Clocks from the start of a reading to the earliest start of the next, at most.
 int busy_clocks(const AbsoluteEncoder::Parameters& p) {
-  const int late = p.framing == AbsoluteEncoder::kBiss ? p.ack_clocks + 3 : 0;
-  return 2 * p.gap_clocks + 2 * p.half_clocks * (p.frame_bits() + late) + 8;
-}
-
-/// The amplitudes of the harmonics and those of their slopes add up to at most so much.
-struct Amplitudes {
-  double error = 0, slope = 0;
-};
-Amplitudes sum_of(const std::vector<double>& terms) {
-  Amplitudes sum;
-  for (std::size_t k = 0; k + 1 < terms.size(); k += 2) {
-    const double size = std::hypot(terms[k], terms[k + 1]);
-    sum.error += size;
-    sum.slope += static_cast<double>(k / 2 + 1) * size;
-  }
-  return sum;
+  return 2 * p.gap_clocks + 2 * p.half_clocks * p.frame_bits() + 8;
 }
 
 }  // namespace
 
 void read_absolute_encoder(config::TomlReader& r, Design& d) {
   d.absolute = true;
-  d.absolute_framing = static_cast<int>(r.choice("framing", {"spi", "ssi", "biss"}));
+  d.absolute_framing = static_cast<int>(r.choice("framing", {"spi", "ssi"}));
   const bool spi = d.absolute_framing == AbsoluteEncoder::kSpi;
-  d.absolute_bits = static_cast<int>(r.integer("bits", 12, 24));
+  d.absolute_bits = static_cast<int>(r.integer("bits", 12, 22));
   if (spi && d.absolute_bits != 14) {
     r.fail("bits", fmt::format("an SPI frame has 14 bits of angle, not {}", d.absolute_bits),
            "write bits = 14, or take another framing");
@@ -71,27 +51,6 @@ void read_absolute_encoder(config::TomlReader& r, Design& d) {
     r.fail("diagnosis", "only SPI asks for a register of the diagnosis", "leave it out");
   }
   d.lines = (1 << d.absolute_bits) / 4;
-  if (r.has("error_mrad"))
-    d.absolute_error_mrad = r.numbers("error_mrad", {-kMostError_mrad, kMostError_mrad});
-}
-
-double harmonics(const std::vector<double>& terms, double angle_rad) {
-  double sum = 0;
-  for (std::size_t term = 0; term < terms.size(); ++term) {
-    const double x = static_cast<double>(term / 2 + 1) * angle_rad;
-    sum += terms[term] * (term % 2 == 0 ? std::cos(x) : std::sin(x));
-  }
-  return sum;
-}
-
-Corrections Design::absolute_corrections() const {
-  Corrections table{};
-  for (std::size_t k = 0; k < table.size(); ++k) {
-    const double angle_rad = static_cast<double>(k) * kTurnRad / static_cast<double>(table.size());
-    const double turns = 1e-3 * harmonics(absolute_error_mrad, angle_rad) / kTurnRad;
-    table[k] = static_cast<std::int16_t>(std::lround(std::ldexp(-turns, Map::absolute_entry_bits)));
-  }
-  return table;
 }
 
 AbsoluteEncoder::Parameters Design::absolute_parameters() const {
@@ -102,9 +61,7 @@ AbsoluteEncoder::Parameters Design::absolute_parameters() const {
   p.half_clocks = whole(clocks / (2 * absolute_serial_hz));
   p.gap_clocks = static_cast<int>(std::ceil(clocks * absolute_gap_s - 1e-6));
   p.diag_address = absolute_diagnosis;
-  // The table's error makes a reading move up to so much faster than the shaft.
-  const double counts = overspeed_rad_s * absolute_period_s / count_rad() /
-                        (1 - 1e-3 * sum_of(absolute_error_mrad).slope);
+  const double counts = overspeed_rad_s * absolute_period_s / count_rad();
   p.jump_step = static_cast<int>(
       std::min(std::ceil(counts - 1e-6) + kNoise_counts, std::ldexp(1, absolute_bits - 3)));
   return p;
@@ -116,41 +73,9 @@ int Design::absolute_period_ticks() const {
 
 int Design::absolute_delay_ticks() const {
   constexpr int to_position = 2;  // clocks
-  const AbsoluteEncoder::Parameters p = absolute_parameters();
-  // BiSS-C: of a sensor that begins two serial clocks after its acknowledge.
-  const int wait = p.framing == AbsoluteEncoder::kBiss ? 10 * p.half_clocks : 0;
-  const int table = absolute_table() ? correction_clocks(absolute_bits) : 0;
-  return (p.reading_clocks() + wait + table + to_position + clocks_per_tick() - 1) /
+  return (absolute_parameters().reading_clocks() + to_position + clocks_per_tick() - 1) /
          clocks_per_tick();
 }
-
-namespace {
-
-void check_error(const Design& d) {
-  if (!d.absolute_table()) return;
-  const auto& terms = d.absolute_error_mrad;
-  const auto wrong = [&d](const std::string& what, const char* mend) {
-    d.fail("absolute_encoder.error_mrad", what, mend);
-  };
-  if (terms.size() % 2 != 0 || terms.size() > kMostTerms) {
-    wrong(fmt::format("{} numbers are no cosines and sines of up to {} harmonics", terms.size(),
-                      kMostTerms / 2),
-          "write two for each harmonic of a turn, or []");
-  }
-  const auto [error, slope] = sum_of(terms);
-  if (error > kMostError_mrad || slope > kMostSlope_mrad) {
-    wrong(fmt::format("the harmonics may add up to {:.4g} mrad and a slope of {:.4g} mrad per "
-                      "radian, more than {:g} and {:g}",
-                      error, slope, kMostError_mrad, kMostSlope_mrad),
-          "mount the magnet better");
-  }
-  if (d.absolute_bits > 19) {
-    wrong(fmt::format("the table has steps of 2^-20 turn, too coarse for {} bits", d.absolute_bits),
-          "leave it out, or take up to 19 bits");
-  }
-}
-
-}  // namespace
 
 void check_absolute_encoder(const Design& d) {
   const AbsoluteEncoder::Parameters p = d.absolute_parameters();
@@ -162,7 +87,6 @@ void check_absolute_encoder(const Design& d) {
     d.fail("velocity.estimator", "M/T needs the clocks of edges, which an absolute encoder lacks",
            "take estimator = \"n_method\"");
   }
-  check_error(d);
   const auto clocks = static_cast<double>(d.clock_hz);
   if (!is_whole(clocks / (2 * d.absolute_serial_hz)) || p.half_clocks < 4) {
     d.fail("absolute_encoder.serial_hz",

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "design/design.hpp"
-#include "feltgate/commutation.hpp"
+#include "feltgate/axis/three_phase.hpp"
 #include "feltgate/current_sense.hpp"
 #include "feltgate/field_oriented.hpp"
 #include "files/toml/toml_reader.hpp"
@@ -103,7 +103,6 @@ void read_commutation(config::TomlReader& r, Design& d) {
   d.pole_pairs = static_cast<int>(r.integer("pole_pairs", 1, 100));
   d.hall = r.has("hall") && r.integer("hall", 0, 1) == 1;
   d.commutation_offset_rad = r.number("offset_rad", {-kElectricalTurnRad, kElectricalTurnRad});
-  d.modulation = static_cast<int>(r.choice("modulation", {"sines", "space_vectors"}));
 }
 
 double Design::full_duty_v() const { return phases == 3 ? supply_v / std::sqrt(3.0) : supply_v; }
@@ -123,19 +122,14 @@ void check_commutation(const Design& d) {
     d.fail("pwm.phases", "a core with several axes has no pins of a third leg",
            "write phases = 2, or leave [axes] out");
   }
-  if (d.current_loop && d.modulation != Commutation::kSpaceVectors) {
-    d.fail("commutation.modulation", "a current loop makes space vectors",
-           "write modulation = \"space_vectors\", or leave [current_loop] out");
-  }
   if (d.pwm_mode != 0) {
     d.fail("pwm.mode", "three legs have one kind of pulses", "write mode = \"sign_magnitude\"");
   }
-  const Commutation commutation(d.pwm_period_clocks(),
-                                static_cast<Commutation::Modulation>(d.modulation));
-  if (d.pwm_period_clocks() < commutation.latency_clocks() + 2) {
+  constexpr int least_clocks = axis::ThreePhase::lead + 2;
+  if (d.pwm_period_clocks() < least_clocks) {
     d.fail("pwm.frequency_hz",
            fmt::format("a PWM period has {} clocks, and the commutation of one takes {}",
-                       d.pwm_period_clocks(), commutation.latency_clocks() + 2),
+                       d.pwm_period_clocks(), least_clocks),
            "lower it");
   }
   if (d.pole_pairs >= 4 * d.lines) {

@@ -26,11 +26,6 @@ class TomlReader;
 
 namespace feltgate::design {
 
-/// The table of an absolute encoder.
-using Corrections = std::array<std::int16_t, 1 << Map::absolute_segment_bits>;
-/// The sum of harmonics at an angle: cosine 1, sine 1, cosine 2, ...
-double harmonics(const std::vector<double>& terms, double angle_rad);
-
 /// The numbers of a design file; units are in the names.
 struct Design {
   std::string name, path, description;
@@ -72,12 +67,10 @@ struct Design {
   double wall_contact_rad = 0, wall_nm_rad = 0, wall_nm_s_rad = 0;
   Format velocity{}, torque{}, current{}, voltage{};
   int observer_fraction = 0;
-  int coefficient_bits = fabric::multiplier_b_bits - 1;  ///< bits of a mantissa without sign
-  Round rounding = Round::half_up;                       ///< where the chain rounds
-  bool parallel_multipliers = false;  ///< one multiplier per block instead of a shared one
-  int axes = 1;                       ///< motors, each with an encoder; they share tick and port
-  bool engine = false;                ///< programs compute the torque of the scene law
-  double engine_max_age_s = 0;        ///< largest age of a torque; beyond: fault `engine`
+  Round rounding = Round::half_up;  ///< where the chain rounds
+  int axes = 1;                     ///< motors, each with an encoder; they share tick and port
+  bool engine = false;              ///< programs compute the torque of the scene law
+  double engine_max_age_s = 0;      ///< largest age of a torque; beyond: fault `engine`
   // [current_loop], optional: the measured current is controlled, by a voltage for each PWM period.
   bool current_loop = false;
   double current_full_scale_a = 0;  ///< at which the modulator clips; a power of two
@@ -87,11 +80,9 @@ struct Design {
   bool absolute = false;
   int absolute_framing = 0, absolute_bits = 0, absolute_diagnosis = 0;
   double absolute_serial_hz = 0, absolute_gap_s = 0, absolute_period_s = 0;
-  /// What the sensor shows beyond the angle: cosine 1, sine 1, cosine 2, ... of a turn; empty: 0.
-  std::vector<double> absolute_error_mrad;
   // [commutation], with [pwm] phases = 3: three legs turn the voltage with the motor.
   int phases = 2;  ///< legs of the bridge
-  int pole_pairs = 0, modulation = 0;
+  int pole_pairs = 0;
   double commutation_offset_rad = 0;  ///< electrical
   bool hall = false;          ///< three Hall lines give the angle at which the encoder begins
   bool allow_coarse = false;  ///< not in the file: accept a resolution coarser than promised
@@ -126,11 +117,7 @@ struct Design {
   int mt_window_clocks() const;
   AbsoluteEncoder::Parameters absolute_parameters() const;
   int absolute_period_ticks() const;  ///< from reading to reading
-  int absolute_delay_ticks() const;   ///< from the angle to the tick whose wave has it
-  bool absolute_table() const { return !absolute_error_mrad.empty(); }
-  /// What is added to a reading at even angles of a turn, in 2^-absolute_entry_bits turn; all 0
-  /// without a table.
-  Corrections absolute_corrections() const;
+  int absolute_delay_ticks() const;   ///< from the angle to the tick that has it
   /// Clock of the PWM period in which the window of its current begins: the window's middle is that
   /// of the pulse at the terminals.
   int current_strobe_clock() const;
@@ -151,6 +138,9 @@ struct Word {
   Format format{};
   double si = 0;         ///< exact value, in the parameter's unit
   std::int64_t raw = 0;  ///< the integer in the parameter RAM
+  /// The format of its register in params_t: a limit has no sign, a coefficient a whole mantissa,
+  /// an integer the bits of the register map.
+  Format field() const;
   double quantised() const;
   double relative_error() const;  ///< (quantised-si)/si; 0 if si is 0
 };
@@ -190,16 +180,22 @@ void check_current_loop(const Design& d);
 /// the last one, for exploration.
 Elaborated elaborate(const Design& design, const RegisterMap& registers);
 
-/// The format of an unsigned (or signed) mantissa of `bits` bits for `value`. The value uses the
-/// top bit, so a register can raise it to just below the next power of two. Below 2^(bits-49) the
-/// binary point stays and the mantissa loses bits; 0 gets [S,0,bits].
-Format coefficient_format(double value, bool is_signed, int bits = fabric::multiplier_b_bits - 1);
+/// Bits of a coefficient's mantissa, without its sign.
+constexpr int coefficient_bits = fabric::multiplier_b_bits - 1;
+
+/// The format of an unsigned (or signed) mantissa for `value`. The value uses the top bit, so a
+/// register can raise it to just below the next power of two. Below 2^-32 the binary point stays
+/// and the mantissa loses bits; 0 gets [S,0,17].
+Format coefficient_format(double value, bool is_signed);
 
 /// The most fraction bits that a coefficient may have.
 constexpr int coefficient_fraction_max = 48;
 
-/// Clocks from the sampled position to the duty register.
-constexpr int latency_clocks = Map::T::duty + 1 - Map::T::sample;
+/// Clocks from the sampled position to the duty register; of a charge, which divides, more.
+constexpr int latency_clocks = 25, charge_latency_clocks = 42;
+/// A tick is at least so long: two clocks before the sample, the chain of a charge, and the
+/// snapshot's last words.
+constexpr int least_tick_clocks = 50;
 
 }  // namespace feltgate::design
 

@@ -10,7 +10,6 @@
 #include <map>
 
 #include "design/design.hpp"
-#include "feltgate/commutation.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/toml/toml_reader.hpp"
 
@@ -26,14 +25,9 @@ double low_pass_a1(double cutoff_rad_s, double tick_s) {
 
 // Largest duty. A bootstrap driver is charged by the pulses of the low gate: the low gate of each
 // switching leg gets its shortest pulse in every period. If the period is too short, the limit is
-// half a period. Of three legs with space vectors the highest is on for half a period and half the
-// amplitude, with sines for half a period and amplitude/sqrt(3).
+// half a period. Of three legs the highest is on for half a period and half the amplitude.
 double duty_limit(const Design& d) {
   const int period = d.pwm_period_clocks(), legs = d.pwm_mode == 1 || d.phases == 3 ? 2 : 1;
-  if (d.phases == 3 && d.modulation == Commutation::kSines) {
-    const int most = period / 2 - d.dead_clocks() - d.shortest_clocks() - 1;
-    return std::max<double>(period / 2, std::floor(most * std::sqrt(3.0)));
-  }
   return std::max(period / 2, period - legs * (d.dead_clocks() + d.shortest_clocks()));
 }
 
@@ -253,7 +247,7 @@ void check_widths(const Elaborated& e) {
     d.fail("formats.torque", "a charge pushes with up to 1 Nm", "use at least 0 integer bits");
   }
   if (d.mt) {
-    // The dividend of velocity_mt.sv: up to 8 half counts of each cycle, 26 bits of time stamps.
+    // The dividend of span_meter.sv: up to 8 half counts of each cycle, 26 bits of time stamps.
     const double half =
         std::ldexp(pi_over(4.0 * d.lines) * static_cast<double>(d.clock_hz), d.velocity.fraction);
     if (half * 8 * d.mt_cycles >= std::ldexp(1.0, 25 + d.velocity.width())) {
@@ -360,17 +354,20 @@ void check_word(const Design& d, const Word& w) {
                (pole ? " and the filter would stand still" : ""),
            pole ? "raise the cut-off or lower tick_hz" : "raise it, or set it to 0");
   }
-  const std::int64_t high = (std::int64_t{1} << (w.format.width() - w.format.sign)) - 1;
-  const std::int64_t low = w.format.sign == 1 ? -high - 1 : 0;
-  if (w.raw > high || w.raw < low || (coefficient && w.format.fraction < 0)) refuse(d, w);
+  for (const Format f : {w.format, w.field()}) {
+    const std::int64_t high = (std::int64_t{1} << (f.width() - f.sign)) - 1;
+    const std::int64_t low = f.sign == 1 ? -high - 1 : 0;
+    if (w.raw > high || w.raw < low) refuse(d, w);
+  }
+  if (coefficient && w.format.fraction < 0) refuse(d, w);
 }
 
 void check(const Elaborated& e) {
   const Design& d = e.design;
   for (const Word& w : e.words) check_word(d, w);
-  if (d.clocks_per_tick() < Map::wave_length) {
+  if (d.clocks_per_tick() < least_tick_clocks) {
     d.fail("clock.tick_hz",
-           fmt::format("the chain takes {} clocks and a tick has {}", Map::wave_length,
+           fmt::format("the chain takes {} clocks and a tick has {}", least_tick_clocks,
                        d.clocks_per_tick()),
            "lower tick_hz or raise clock_hz");
   }
@@ -384,8 +381,8 @@ void check(const Elaborated& e) {
 
 }  // namespace
 
-Format coefficient_format(double value, bool is_signed, int bits) {
-  const int mantissa = bits;
+Format coefficient_format(double value, bool is_signed) {
+  constexpr int mantissa = coefficient_bits;
   const int least_integer = mantissa - coefficient_fraction_max;
   const double magnitude = std::abs(value);
   if (magnitude == 0) return {is_signed ? 1 : 0, 0, mantissa};
@@ -393,6 +390,17 @@ Format coefficient_format(double value, bool is_signed, int bits) {
   // A value that rounds up to the next power of two needs one more integer bit.
   if (std::llround(std::ldexp(magnitude, mantissa - integer)) >> mantissa != 0) ++integer;
   return {is_signed ? 1 : 0, integer, mantissa - integer};
+}
+
+Format Word::field() const {
+  const Parameter& p = parameter;
+  if (p.kind == "coefficient" || p.kind == "signed") {
+    return {format.sign, coefficient_bits - format.fraction, format.fraction};
+  }
+  // The top bit says that a word is negative, also of a format without a sign.
+  if (p.kind == "limit") return {0, format.width() - 1 - format.fraction, format.fraction};
+  if (p.kind == "integer") return {0, p.bits, 0};
+  return format;
 }
 
 double Word::quantised() const { return std::ldexp(static_cast<double>(raw), -format.fraction); }
@@ -450,25 +458,25 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
         design.fail(w.key, fmt::format("{} = {} fits no word", p.name, text(largest)),
                     "choose a value that makes it smaller");
       }
-      w.format = coefficient_format(std::ldexp(largest, p.headroom_bits), p.kind == "signed",
-                                    design.coefficient_bits);
-    } else if (p.kind == "signal") {
+      w.format = coefficient_format(std::ldexp(largest, p.headroom_bits), p.kind == "signed");
+    } else if (p.kind == "signal" || p.kind == "limit") {
       w.format = signal_format(e, p);
     } else if (p.kind == "counts") {
       w.format = {1, 17, 8};
     } else if (p.kind == "angle") {
       w.format = {0, 0, 32};
     } else {
-      // The limiter takes an integer with fewer bits, and is as wide as the current.
-      w.format = {0, p.bits < 31 ? std::min(p.bits, design.current.width() - 1) : 31, 0};
+      // The block judges what saturates; the limiter takes the others, as wide as the current.
+      w.format = {0, p.saturates ? 31 : std::min(p.bits, design.current.width() - 1), 0};
     }
     w.raw = quantised_word(design, w);
+    if (p.saturates) w.raw = std::min(w.raw, (std::int64_t{1} << p.bits) - 1);
     e.words.push_back(w);
   }
   const auto f = [&](const char* name) { return e.word(name).format; };
-  Format gain{0, 0, design.coefficient_bits};
+  Format gain{0, 0, coefficient_bits};
   if (design.exact_gain) {
-    gain = coefficient_format(design.velocity_gain_rad_s(), false, design.coefficient_bits);
+    gain = coefficient_format(design.velocity_gain_rad_s(), false);
     e.velocity_gain = std::llround(std::ldexp(design.velocity_gain_rad_s(), gain.fraction));
   }
   e.base = {design.velocity,          design.torque,

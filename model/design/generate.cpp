@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Generates the SystemVerilog package and the C++ header of a design. Documentation:
+// The constants of a design, its C++ header and its memory file. Documentation:
 // docs/designs.md
 #include "design/generate.hpp"
 
@@ -13,11 +13,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "design/generate_cfg.hpp"
 #include "design/text_edit.hpp"
+#include "feltgate/axis/params.hpp"
 #include "feltgate/crc32.hpp"
 #include "feltgate/current_control.hpp"
 #include "feltgate/current_sense.hpp"
-#include "feltgate/registers.hpp"
 
 namespace feltgate::design {
 
@@ -48,13 +49,6 @@ std::string banner(const Elaborated& e, const std::string& what) {
   return generated_banner("rtl/designs/" + e.design.name + ".toml and rtl/registers.toml", what);
 }
 
-/// Plain integers that RTL and twin share: name, value, meaning.
-struct Constant {
-  std::string name;
-  std::int64_t value;
-  std::string doc;
-};
-
 std::vector<Constant> constants(const Elaborated& e) {
   const Design& d = e.design;
   return {
@@ -69,13 +63,6 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"shortest_clocks", d.shortest_clocks(), "clocks, of a pulse at a gate"},
       {"scene_mask", scene_mask(e), "bit n: scene n is built"},
       {"control_reset", control_reset(e), "control word after reset"},
-      {"coefficient_bits", d.coefficient_bits,
-       "bits of a coefficient's mantissa, without its sign"},
-      {"parallel_multipliers", d.parallel_multipliers ? 1 : 0, "1: each block has its own"},
-      {"multiplier_a_bits", fabric::multiplier_a_bits, "bits"},
-      {"multiplier_b_bits", fabric::multiplier_b_bits, "bits"},
-      {"product_bits", fabric::product_bits, "bits"},
-      {"travel_bits", fabric::travel_bits, "bits"},
       {"scene_guard_bits", fabric::scene_guard_bits,
        "bits that a scene's terms keep below a torque step"},
       {"require_watchdog", d.require_watchdog ? 1 : 0, "1: arming waits for the first kick"},
@@ -186,11 +173,10 @@ std::vector<Constant> of_current_loop(const Elaborated& e) {
 /// Words of the absolute encoder; 0 without it.
 std::vector<Constant> of_absolute_encoder(const Design& d) {
   const AbsoluteEncoder::Parameters p =
-      d.absolute ? d.absolute_parameters()
-                 : AbsoluteEncoder::Parameters{0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+      d.absolute ? d.absolute_parameters() : AbsoluteEncoder::Parameters{0, 0, 0, 0, 0, 0, 0, 0, 0};
   return {
       {"absolute_encoder", d.absolute ? 1 : 0, "1: the position is of an absolute encoder"},
-      {"absolute_framing", p.framing, "0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C"},
+      {"absolute_framing", p.framing, "0 SPI with parity, 1 SSI with CRC-6"},
       {"absolute_bits", p.bits, "of a turn"},
       {"absolute_half_clocks", p.half_clocks, "clocks: half a serial clock"},
       {"absolute_gap_clocks", p.gap_clocks, "clocks before the serial clock and between readings"},
@@ -212,16 +198,13 @@ bool as_of_4096_counts(const Design& d) {
   return d.edge_unit_bits() == 6 && !d.fast_edges() && d.self_test_drop() == 0;
 }
 
-/// Table against its error, and Hall lines; not in the CRC of designs without them.
+/// Hall lines; not in the CRC of designs without them.
 std::vector<Constant> of_angle(const Design& d) {
-  return {{"absolute_table", d.absolute_table() ? 1 : 0, "1: readings are corrected by a table"},
-          {"hall", d.hall ? 1 : 0, "1: Hall lines give the electrical angle at power-up"}};
+  return {{"hall", d.hall ? 1 : 0, "1: Hall lines give the electrical angle at power-up"}};
 }
 
-/// Words of the commutation; only phases = 2 without it.
 std::vector<Constant> of_phases(const Design& d) {
-  return {{"phases", d.phases, "legs of the bridge: 2 of one motor current, 3 of three"},
-          {"modulation", d.modulation, "of three phases: 0 sines, 1 space vectors"}};
+  return {{"phases", d.phases, "legs of the bridge: 2 of one motor current, 3 of three"}};
 }
 
 /// The constants of all options, in the order of the files.
@@ -237,6 +220,14 @@ std::vector<Constant> of_options(const Elaborated& e) {
 
 }  // namespace
 
+std::vector<Constant> design_constants(const Elaborated& e) {
+  std::vector<Constant> all = constants(e);
+  for (const Constant& c : of_options(e)) all.push_back(c);
+  all.push_back({"rounding", rounding(e.design.rounding).number,
+                 "where the chain rounds: 0 half up, 1 floor, 2 convergent"});
+  return all;
+}
+
 std::uint32_t design_crc(const Elaborated& e) {
   std::string text = fmt::format("clock_hz {}\ntick_hz {}\n", e.design.clock_hz, e.design.tick_hz);
   const auto add = [&text](const std::vector<Constant>& list) {
@@ -250,11 +241,6 @@ std::uint32_t design_crc(const Elaborated& e) {
   if (e.design.absolute) add(of_absolute_encoder(e.design));
   if (e.design.phases == 3) add(of_phases(e.design));
   if (e.design.hall) text += "hall 1\n";
-  if (e.design.absolute_table()) {
-    for (const int correction : e.design.absolute_corrections()) {
-      text += fmt::format("correction {}\n", correction);
-    }
-  }
   for (const auto& [name, f] : named_formats(e.formats)) {
     text += fmt::format("{} {} {} {}\n", name, f.sign, f.integer, f.fraction);
   }
@@ -265,76 +251,7 @@ std::uint32_t design_crc(const Elaborated& e) {
   return crc32(text.data(), text.size());
 }
 
-std::string systemverilog_package(const Elaborated& e) {
-  std::ostringstream s;
-  s << banner(e, "Formats [S,I,F] and constants.") << "\n`default_nettype none\n\n"
-    << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
-    << "package feltgate_pkg;\n"
-    << "  localparam int CLOCK_HZ = " << e.design.clock_hz << ";\n";
-  for (const Constant& c : constants(e)) {
-    s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
-  }
-  for (const Constant& c : of_options(e)) {
-    s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
-  }
-  s << "  localparam int ROUNDING = " << rounding(e.design.rounding).number
-    << ";  // where the chain rounds: 0 half up, 1 floor, 2 convergent\n";
-  s << fmt::format(
-      "  localparam logic [31:0] DESIGN_CRC = 32'h{:08x};  // by which a host knows the "
-      "design\n",
-      design_crc(e));
-  s << "\n  // Widths (W) and fraction bits (F) of the signals.\n";
-  for (const auto& [name, f] : named_formats(e.formats)) {
-    s << "  localparam int " << upper(name) << "_W = " << f.width() << ";  // [" << f.sign << ","
-      << f.integer << "," << f.fraction << "]\n"
-      << "  localparam int " << upper(name) << "_F = " << f.fraction << ";\n";
-  }
-  s << "\n  // Fraction bits of the coefficients.\n";
-  for (const Word& w : e.words) {
-    if (w.parameter.kind == "coefficient" || w.parameter.kind == "signed") {
-      s << "  localparam int P_" << upper(w.parameter.name) << "_F = " << w.format.fraction
-        << ";\n";
-    }
-  }
-  s << "\n  // Parameter RAM after reset: the design's values, quantised.\n"
-    << "  function automatic logic [31:0] parameter_reset(input logic [8:0] address);\n"
-    << "    case (address)\n";
-  for (const Word& w : e.words) {
-    s << "      9'd" << w.parameter.address << ": parameter_reset = 32'd"
-      << static_cast<std::uint32_t>(w.raw) << ";  // " << w.parameter.name << "\n";
-  }
-  s << "      default: parameter_reset = 32'd0;\n    endcase\n  endfunction\n"
-    << "\n  // Whether a parameter has a sign, and the bits above its format.\n"
-    << "  function automatic logic [32:0] parameter_above(input logic [8:0] address);\n"
-    << "    case (address)\n";
-  for (const Word& w : e.words) {
-    const int bits = w.format.width() - w.format.sign;
-    if (bits >= 31) continue;  // all words fit, or the block that takes the integer judges it
-    s << "      9'd" << w.parameter.address << ": parameter_above = {1'd" << w.format.sign
-      << fmt::format(", 32'h{:08x}}};  // ", static_cast<std::uint32_t>(-1) << bits)
-      << w.parameter.name << "\n";
-  }
-  s << "      default: parameter_above = 33'd0;\n    endcase\n  endfunction\n"
-    << "\n  // What is added to an absolute encoder's reading, 2^-20 turn.\n"
-    << "  function automatic logic [15:0] absolute_correction(input logic ["
-    << Map::absolute_segment_bits - 1 << ":0] part);\n"
-    << "    case (part)\n";
-  if (e.design.absolute_table()) {
-    const auto table = e.design.absolute_corrections();
-    for (std::size_t k = 0; k < table.size(); ++k) {
-      s << "      " << Map::absolute_segment_bits << "'d" << k << ": absolute_correction = 16'd"
-        << static_cast<std::uint16_t>(table[k]) << ";\n";
-    }
-  }
-  s << "      default: absolute_correction = 16'd0;\n    endcase\n  endfunction\n"
-    << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
-  return s.str();
-}
-
-namespace {
-
-/// The header with this line about its sum.
-std::string header_with(const Elaborated& e, const std::string& sum_line) {
+std::string cpp_header(const Elaborated& e) {
   const Design& d = e.design;
   std::ostringstream s;
   s << banner(e, "")
@@ -363,15 +280,6 @@ std::string header_with(const Elaborated& e, const std::string& sum_line) {
       "  static constexpr std::uint32_t design_crc = 0x{:08x};  // by which a host knows the "
       "design\n",
       design_crc(e));
-  s << sum_line;
-  if (d.absolute_table()) {
-    s << "\n  /// What is added to an absolute encoder's reading, 2^-20 turn.\n"
-      << "  static constexpr std::int16_t absolute_corrections[" << Corrections{}.size() << "] = {";
-    const auto table = d.absolute_corrections();
-    for (std::size_t k = 0; k < table.size(); ++k) {
-      s << (k % 16 == 0 ? "\n      " : " ") << table[k] << (k + 1 < table.size() ? "," : "};\n");
-    }
-  }
   s << "\n  /// Formats of the parameters.\n  struct P {\n";
   for (const Word& w : e.words) {
     s << "    static constexpr Format " << w.parameter.name << triple(w.format) << ";\n";
@@ -393,35 +301,21 @@ std::string header_with(const Elaborated& e, const std::string& sum_line) {
        "P::wall_stiffness,\n"
     << "      P::damper_damping, P::wall_damping};\n"
     << "  static constexpr Formats f = derive(base);\n\n"
-    << "  /// Parameters: name, unit, address, format, exact value, integer.\n"
+    << "  /// Parameters: name, unit, address, format, exact value, integer, format of its\n"
+       "  /// register.\n"
     << "  static constexpr ParameterInfo parameters[] = {\n";
   for (const Word& w : e.words) {
     s << "      {\"" << w.parameter.name << "\", \"" << w.parameter.unit
       << "\", A::" << w.parameter.name << ", P::" << w.parameter.name << ",\n       "
-      << real_literal(w.si) << ", " << w.raw << "},\n";
+      << real_literal(w.si) << ", " << w.raw << ", " << triple(w.field()) << "},\n";
+  }
+  s << "  };\n\n  /// The constants of the package cfg.\n"
+    << "  static constexpr NamedConstant constants[] = {\n";
+  for (const Constant& c : cfg_constants(e)) {
+    s << "      {\"" << c.name << "\", " << c.value << "},\n";
   }
   s << "  };\n};\n\n}  // namespace feltgate\n";
   return s.str();
-}
-
-}  // namespace
-
-std::uint32_t file_sum(const Elaborated& e) {
-  const std::string text = systemverilog_package(e) + header_with(e, "") + memory_text(e);
-  return crc32(text.data(), text.size());
-}
-
-std::string cpp_header(const Elaborated& e) {
-  return header_with(e, fmt::format("  static constexpr std::uint32_t file_sum = 0x{:08x};  // by "
-                                    "which a program notices that the file has changed\n",
-                                    file_sum(e)));
-}
-
-void require_current(const Elaborated& e, std::uint32_t sum, const std::string& mend) {
-  if (file_sum(e) == sum) return;
-  throw std::invalid_argument(fmt::format(
-      "{}: the file has changed since design {} was made of it, so what it says is not used; {}",
-      e.design.path, e.design.name, mend));
 }
 
 std::string memory_text(const Elaborated& e) {
@@ -431,7 +325,7 @@ std::string memory_text(const Elaborated& e) {
   }
   std::string text = banner(e, "");
   for (const std::uint32_t word : words) {
-    text += fmt::format("{:x}{:08x}\n", check_of(word), word);
+    text += fmt::format("{:09x}\n", axis::ParamsMemory::checked(word));
   }
   return text;
 }

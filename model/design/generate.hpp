@@ -1,25 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Generates the files of a design: the SystemVerilog package, the C++ header, and the pages that
-// list registers and the wave. Documentation: docs/designs.md
+// Generates the files of all designs and of one: map, C++ header, pages. Documentation:
+// docs/designs.md
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "design/design.hpp"
 
 namespace feltgate::design {
 
-/// Text of rtl/generated/NAME/feltgate_pkg.sv.
-std::string systemverilog_package(const Elaborated& e);
+/// A plain integer that RTL and twin share.
+struct Constant {
+  std::string name;
+  std::int64_t value;
+  std::string doc;
+};
+
+/// The constants of a design, in the order of its packages.
+std::vector<Constant> design_constants(const Elaborated& e);
+
+/// Texts of rtl/generated/map.sv and model/include/feltgate/generated/map.hpp: addresses, bits and
+/// numbers, which are equal in all designs.
+std::string map_package(const RegisterMap& map);
+std::string map_header(const RegisterMap& map);
+/// Text of model/include/feltgate/generated/causes.hpp.
+std::string causes_header(const RegisterMap& map);
 
 /// Text of model/include/feltgate/generated/NAME.hpp.
 std::string cpp_header(const Elaborated& e);
-
-/// Text of model/include/feltgate/generated/reader.hpp.
-std::string reader_header(const RegisterMap& map);
 
 /// Text of rtl/generated/NAME/parameters.mem for $readmemh: the 512 words in hexadecimal, each
 /// after its check bits.
@@ -43,19 +55,13 @@ std::string bits_text(const Field& f);
 /// CRC-32 of everything that a host must know of a design to interpret its words: docs/link.md.
 std::uint32_t design_crc(const Elaborated& e);
 
-/// CRC-32 of all that is generated of a design: it changes with whatever the design's file says.
-std::uint32_t file_sum(const Elaborated& e);
-/// Throws std::invalid_argument where the design is not that of this file_sum() any more: which file
-/// has changed, and what mends it.
-void require_current(const Elaborated& e, std::uint32_t sum, const std::string& mend);
-
 /// The table that `feltgate design NAME` prints.
 std::string design_table(const Elaborated& e);
 
 /// The control word after a reset.
 std::uint32_t control_reset(const Elaborated& e);
 
-/// Names and formats of all signals, in the order of the wave.
+/// Names and formats of all signals, in the order of the data.
 std::vector<std::pair<std::string, Format>> named_formats(const Formats& f);
 
 }  // namespace feltgate::design

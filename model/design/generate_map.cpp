@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Generates the package and the header that all designs share: slots, clocks, addresses, bits and
-// numbers. Documentation: docs/designs.md
+// Generates the package and the header that all designs share: addresses, bits and numbers.
+// Documentation: docs/designs.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,58 +10,12 @@
 #include <vector>
 
 #include "design/generate.hpp"
-#include "design/schedule.hpp"
 #include "design/text_edit.hpp"
 #include "feltgate/crc32.hpp"
 
 namespace feltgate::design {
 
 namespace {
-
-constexpr const char* sources = "rtl/registers.toml and rtl/schedule.toml";
-
-/// A named clock of the wave; the name has no prefix PARAM_AT_, ...
-struct Clock {
-  std::string name;
-  int clock;
-};
-
-bool is_factor(const Parameter& p) { return p.kind == "coefficient" || p.kind == "signed"; }
-
-/// The slots of the words on the parameter bus, and of the squares on the operand bus.
-std::vector<Clock> slots(const RegisterMap& map, const Schedule& s) {
-  std::vector<Clock> all;
-  for (const Parameter& p : map.parameters) all.push_back({p.name, p.slot});
-  for (const Product& p : s.products) {
-    if (map.find(p.name) == nullptr) all.push_back({p.name, p.slot});
-  }
-  return all;
-}
-
-std::vector<Clock> products(const RegisterMap& map, const Schedule& s) {
-  std::vector<Clock> all;
-  for (const Parameter& p : map.parameters) {
-    if (is_factor(p) && p.slot < s.wave_length) {
-      all.push_back({p.name, p.slot + s.multiplier_latency});
-    }
-  }
-  for (const Product& p : s.products) {
-    if (map.find(p.name) == nullptr) all.push_back({p.name, p.slot + s.multiplier_latency});
-  }
-  return all;
-}
-
-std::vector<Clock> steps(const Schedule& s) {
-  std::vector<Clock> all;
-  for (const Step& step : s.steps) all.push_back({step.name, step.clock});
-  return all;
-}
-
-std::vector<Clock> words(const RegisterMap& map) {
-  std::vector<Clock> all;
-  for (const Snapshot& n : map.snapshots) all.push_back({n.name, n.slot});
-  return all;
-}
 
 /// Mask of the common words whose write has `effect` while the motor is armed: bit n is word n.
 std::uint64_t words_that(const RegisterMap& map, const std::string& effect) {
@@ -79,43 +33,6 @@ unsigned input_scenes(const RegisterMap& map) {
   }
   return mask;
 }
-
-/// The events of a tick in the order of their clocks. Values taken from a bus in a clock come
-/// before values that are new after this clock.
-std::vector<Clock> in_order(const RegisterMap& map, const Schedule& s) {
-  std::vector<Clock> all;
-  for (const Clock& c : words(map)) all.push_back({"read_" + c.name, c.clock});
-  for (const Product& p : s.products) all.push_back({"operand_" + p.name, p.slot});
-  for (const Clock& c : steps(s)) all.push_back(c);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Clock& a, const Clock& b) { return a.clock < b.clock; });
-  return all;
-}
-
-void clocks_sv(std::ostringstream& s, const char* prefix, const char* doc,
-               const std::vector<Clock>& clocks) {
-  s << "\n  // " << doc << "\n";
-  for (const Clock& c : clocks) {
-    s << "  localparam int " << prefix << upper(c.name) << " = " << c.clock << ";\n";
-  }
-}
-
-void clocks_cpp(std::ostringstream& s, const char* type, const char* doc,
-                const std::vector<Clock>& clocks) {
-  s << "\n  /// " << doc << "\n  struct " << type << " {\n";
-  for (const Clock& c : clocks) {
-    s << "    static constexpr int " << c.name << " = " << c.clock << ";\n";
-  }
-  s << "  };\n";
-}
-
-constexpr const char* slots_doc = "Wave clocks in which a word, or a square, is on its bus.";
-constexpr const char* products_doc = "Wave clocks in which a product is on the product bus.";
-constexpr const char* steps_doc =
-    "Wave clocks of the steps; what a step gives is there a clock later.";
-constexpr const char* words_doc =
-    "Wave clocks in which the snapshot takes its words, off the operand bus or by inputs of its "
-    "own.";
 
 void fields_sv(std::ostringstream& s, const std::string& word, const std::vector<Field>& fields) {
   for (const Field& f : fields) {
@@ -142,24 +59,7 @@ void fields_cpp(std::ostringstream& s, const std::string& word, const std::vecto
   }
 }
 
-}  // namespace
-
-std::string map_package(const RegisterMap& map, const Schedule& schedule) {
-  std::ostringstream s;
-  s << generated_banner(sources, "Clocks, slots, addresses, bits, numbers of all designs.")
-    << "\n`default_nettype none\n\n"
-    << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
-    << "package feltgate_map_pkg;\n"
-    << "  localparam int WAVE_LENGTH = " << schedule.wave_length
-    << ";  // clocks; a tick is at least as long\n"
-    << "  localparam int FIRST_WAVE_CLOCK = " << schedule.first_wave_clock
-    << ";  // clock of the tick that is wave clock 0\n"
-    << "  localparam int MULTIPLIER_LATENCY = " << schedule.multiplier_latency
-    << ";  // clocks from the operands to the product\n"
-    << fmt::format(
-           "  localparam logic [63:0] SCENE_SLOTS = 64'h{:016x};  // bit n: slot n is read "
-           "from the scene's bank\n",
-           scene_slots(map));
+void masks_sv(std::ostringstream& s, const RegisterMap& map) {
   s << fmt::format(
       "  // While armed: words of all scenes that are refused or ramp, by address; scenes whose "
       "words "
@@ -171,10 +71,10 @@ std::string map_package(const RegisterMap& map, const Schedule& schedule) {
   for (const Cause& c : map.constants) {
     s << "  localparam int " << upper(c.name) << " = " << c.number << ";  // " << c.doc << "\n";
   }
-  clocks_sv(s, "PARAM_AT_", slots_doc, slots(map, schedule));
-  clocks_sv(s, "PRODUCT_AT_", products_doc, products(map, schedule));
-  clocks_sv(s, "EVENT_AT_", steps_doc, steps(schedule));
-  clocks_sv(s, "READ_AT_", words_doc, words(map));
+}
+
+/// Numbers of scenes, limits and faults, control words, fields.
+void numbers_sv(std::ostringstream& s, const RegisterMap& map) {
   s << "\n  // Scene numbers.\n";
   for (const Scene& scene : map.scenes) {
     s << "  localparam logic [3:0] SCENE_" << upper(scene.name) << " = 4'd" << scene.number
@@ -200,23 +100,35 @@ std::string map_package(const RegisterMap& map, const Schedule& schedule) {
     s << "  localparam int FAULT_" << upper(c.name) << " = " << c.number << ";  // " << c.doc
       << "\n";
   }
+}
+
+}  // namespace
+
+std::string map_package(const RegisterMap& map) {
+  std::ostringstream s;
+  s << generated_banner("rtl/registers.toml", "Addresses, bits, numbers of all designs.")
+    << "\n`default_nettype none\n\n"
+    << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
+    << "package map;\n";
+  masks_sv(s, map);
+  s << "\n  // Places of the snapshot's words, from A_SNAPSHOT on.\n";
+  for (const Snapshot& n : map.snapshots) {
+    s << fmt::format("  localparam logic [5:0] S_{} = 6'd{};\n", upper(n.name), n.slot);
+  }
+  s << "\n  // Addresses of the parameters.\n";
+  for (const Parameter& p : map.parameters) {
+    s << fmt::format("  localparam logic [11:0] A_{} = 12'h{:03x};\n", upper(p.name), p.address);
+  }
+  numbers_sv(s, map);
   s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
   return s.str();
 }
 
-std::string map_header(const RegisterMap& map, const Schedule& schedule) {
+std::string map_header(const RegisterMap& map) {
   std::ostringstream s;
-  s << generated_banner(sources, "") << "#pragma once\n\n#include <cstdint>\n"
+  s << generated_banner("rtl/registers.toml", "") << "#pragma once\n\n#include <cstdint>\n"
     << "#include <string_view>\n\nnamespace feltgate {\n\n"
-    << "/// Clocks, slots, addresses, bits and numbers of all designs.\nstruct Map {\n"
-    << "  static constexpr int wave_length = " << schedule.wave_length
-    << ";       ///< clocks; a tick is at least as long\n"
-    << "  static constexpr int first_wave_clock = " << schedule.first_wave_clock
-    << ";  ///< clock of the tick that is wave clock 0\n"
-    << "  static constexpr int multiplier_latency = " << schedule.multiplier_latency
-    << ";  ///< clocks from the operands to the product\n"
-    << "  /// Bit n: slot n is read from the scene's bank.\n"
-    << fmt::format("  static constexpr std::uint64_t scene_slots = 0x{:x};\n", scene_slots(map))
+    << "/// Addresses, bits and numbers of all designs.\nstruct Map {\n"
     << "  /// While armed: words of all scenes that are refused or ramp, by address; scenes whose\n"
        "  /// words act at once.\n"
     << fmt::format(
@@ -227,18 +139,10 @@ std::string map_header(const RegisterMap& map, const Schedule& schedule) {
   for (const Cause& c : map.constants) {
     s << "  static constexpr int " << c.name << " = " << c.number << ";  ///< " << c.doc << "\n";
   }
-  clocks_cpp(s, "W", slots_doc, slots(map, schedule));
-  clocks_cpp(s, "M", products_doc, products(map, schedule));
-  clocks_cpp(s, "T", steps_doc, steps(schedule));
-  clocks_cpp(s, "R", words_doc, words(map));
-  const std::vector<Clock> order = in_order(map, schedule);
-  s << "\n  /// All that happens in a tick: words read into the snapshot, operands of products, "
-       "steps.\n  enum class Step {\n";
-  for (const Clock& c : order) s << "    " << c.name << ",\n";
-  s << "  };\n  struct StepAt {\n    Step step;\n    int clock;  ///< of the wave\n  };\n"
-    << "  /// In the order of the clocks; what is taken in a clock comes before what is new after "
-       "it.\n  static constexpr StepAt steps[] = {\n";
-  for (const Clock& c : order) s << "      {Step::" << c.name << ", " << c.clock << "},\n";
+  s << "\n  /// Places of the snapshot's words, from C::snapshot on.\n  struct R {\n";
+  for (const Snapshot& n : map.snapshots) {
+    s << "    static constexpr int " << n.name << " = " << n.slot << ";\n";
+  }
   s << "  };\n\n  /// Addresses of the parameters.\n  struct A {\n";
   for (const Parameter& p : map.parameters) {
     s << "    static constexpr int " << p.name << " = " << p.address << ";\n";

@@ -35,20 +35,19 @@ std::string register_page(const Elaborated& e) {
     << "printed by `feltgate design NAME`. A write takes effect at the end of the running tick. "
        "The\n"
        "same as C header, SystemRDL and CSV: [other tools](other-tools.md#the-register-map).\n\n"
-    << "## Parameters\n\nRead and written by the host. Slot: the clock of the wave in which the "
-       "word "
-       "is on the\nparameter bus. Armed: what a write does [while the motor is armed]"
-       "(blocks/torque_control.md#ramp); a word\nof a scene ramps while that scene is in use.\n\n"
-    << "| address | name | scene | slot | format | unit | value | armed | meaning |\n"
-    << "|---|---|---|---|---|---|---|---|---|\n";
+    << "## Parameters\n\nRead and written by the host. Armed: what a write does [while the motor "
+       "is armed]"
+       "(blocks/ramp.md#while-armed); a word\nof a scene ramps while that scene is in use.\n\n"
+    << "| address | name | scene | format | unit | value | armed | meaning |\n"
+    << "|---|---|---|---|---|---|---|---|\n";
   for (const Parameter& p : e.registers.parameters) {
     const auto at = std::find_if(e.words.begin(), e.words.end(),
                                  [&](const Word& w) { return w.parameter.name == p.name; });
     const bool built = at != e.words.end();
     s << "| " << hex(p.address) << " | `" << p.name << "` | " << (p.scene.empty() ? "all" : p.scene)
-      << " | " << p.slot << " | " << (built ? format_text(at->format) : "") << " | " << p.unit
-      << " | " << (built ? fmt::format("{:.7g}", at->si) : "no such word") << " | " << p.while_armed
-      << " | " << p.doc << " |\n";
+      << " | " << (built ? format_text(at->field()) : "") << " | " << p.unit << " | "
+      << (built ? fmt::format("{:.7g}", at->si) : "no such word") << " | " << p.while_armed << " | "
+      << p.doc << " |\n";
   }
   s << "\n## Control\n\n| address | name | bits | meaning |\n|---|---|---|---|\n";
   for (const Control& c : e.registers.controls) {
@@ -129,8 +128,9 @@ std::string design_table(const Elaborated& e) {
   } else {
     s << gain_text(e);
   }
-  s << fmt::format("latency, sampled position to duty register: {} of {} clocks per tick\n",
-                   latency_clocks, e.design.clocks_per_tick());
+  s << fmt::format(
+      "latency, sampled position to duty register: {} of {} clocks per tick, of a charge {}\n",
+      latency_clocks, e.design.clocks_per_tick(), charge_latency_clocks);
   return s.str();
 }
 

@@ -190,7 +190,7 @@ void read_velocity(config::TomlReader& r, Design& d) {
       r.fail("cycles", fmt::format("{} cycles are no power of two", d.mt_cycles),
              "write 1, 2, 4 and so on, up to 128");
     }
-    // Bounds of velocity_mt.sv: its time stamps have 26 bits.
+    // Bounds of options/mt/span_meter.sv: its time stamps have 26 bits.
     if (d.mt_window_clocks() >= 1 << 21) {
       r.fail("window_s", "the window is 2^21 clocks or longer", "shorten it");
     }
@@ -391,15 +391,9 @@ Design design_of(const toml::table& root, const std::string& path) {
     d.current = read_format(r, "current");
     d.voltage = read_format(r, "voltage");
     d.observer_fraction = static_cast<int>(r.integer("observer_fraction", 0, 48));
-    if (r.has("coefficient_bits"))
-      d.coefficient_bits =
-          static_cast<int>(r.integer("coefficient_bits", 4, fabric::multiplier_b_bits - 1));
     const Round modes[] = {Round::half_up, Round::truncate, Round::convergent};
     if (r.has("rounding"))
       d.rounding = modes[r.choice("rounding", {"half_up", "floor", "convergent"})];
-  });
-  option("fabric", [&](config::TomlReader& r) {
-    d.parallel_multipliers = r.choice("multipliers", {"shared", "parallel"}) == 1;
   });
   option("engine", [&](config::TomlReader& r) { read_engine(r, d); });
   option("axes",
@@ -410,32 +404,5 @@ Design design_of(const toml::table& root, const std::string& path) {
 }
 
 }  // namespace
-
-// Generates the header with one reader function per parameter of a design.
-
-std::string reader_header(const RegisterMap& map) {
-  std::string s =
-      "// SPDX-License-Identifier: Apache-2.0\n"
-      "// SPDX-FileCopyrightText: 2026 the feltgate authors\n//\n"
-      "// Generated from rtl/registers.toml by `feltgate generate`: do not edit.\n"
-      "#pragma once\n\n"
-      "namespace feltgate {\n\n"
-      "/// The parameters of design D by name, each in the format that D gives it. Derived is the\n"
-      "/// class that inherits this; it reads any word: get<Key>(address).\n"
-      "template <class D, class Derived>\n"
-      "struct ParameterReader {\n";
-  for (const Parameter& p : map.parameters) {
-    s += fmt::format("  auto {0}() const {{\n    return word<D::P::{0}.key()>(D::A::{0});\n  }}\n",
-                     p.name);
-  }
-  return s +
-         "\n private:\n"
-         "  template <int Key>\n"
-         "  auto word(int address) const {\n"
-         "    return static_cast<const Derived&>(*this).template get<Key>(address);\n"
-         "  }\n"
-         "};\n\n"
-         "}  // namespace feltgate\n";
-}
 
 }  // namespace feltgate::design

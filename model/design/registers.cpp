@@ -59,17 +59,19 @@ int small(config::TomlReader& r, const std::string& key, std::int64_t high) {
 }
 
 Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<int>& used) {
-  static const std::vector<std::string> kinds{"coefficient", "signed",  "signal",
+  static const std::vector<std::string> kinds{"coefficient", "signed",  "signal", "limit",
                                               "counts",      "integer", "angle"};
   Parameter p;
   p.name = r.identifier("name");
   p.place = fmt::format("{}:{}", r.file(), r.line("name"));
-  if (r.has("label")) p.label = plain_text(r, "label");
   if (r.has("scene")) p.scene = r.text("scene");
   p.slot = small(r, "slot", p.scene.empty() ? 63 : 31);
   p.kind = kinds[r.choice("kind", kinds)];
-  if (p.kind == "signal") p.signal = r.text("format");
-  if (p.kind == "integer" && r.has("bits")) p.bits = static_cast<int>(r.integer("bits", 1, 31));
+  if (p.kind == "signal" || p.kind == "limit") p.signal = r.text("format");
+  if (p.kind == "integer") {
+    p.bits = static_cast<int>(r.integer("bits", 1, 31));
+    p.saturates = r.flag_or("saturates", false);
+  }
   if (r.has("same_format_as")) p.same_format_as = r.text("same_format_as");
   p.while_armed = p.scene.empty() ? "refused" : "ramps";
   if (r.has("while_armed")) {
@@ -140,21 +142,13 @@ Control read_control(config::TomlReader r) {
   return c;
 }
 
-Snapshot read_snapshot(config::TomlReader r, const RegisterMap& map) {
+Snapshot read_snapshot(config::TomlReader r, std::set<int>& used) {
   Snapshot n;
   n.name = r.identifier("name");
   n.place = fmt::format("{}:{}", r.file(), r.line("name"));
-  if (r.has("label")) n.label = plain_text(r, "label");
-  if (r.has("with")) {
-    n.with = r.text("with");
-    const Parameter* p = map.find(n.with);
-    if (p == nullptr || !p->scene.empty()) {
-      r.fail("with", fmt::format("\"{}\" is no coefficient that all scenes share", n.with),
-             "name one, or write a slot");
-    }
-    n.slot = p->slot;
-  } else {
-    n.slot = small(r, "slot", 63);
+  n.slot = small(r, "slot", 63);
+  if (!used.insert(n.slot).second) {
+    r.fail("slot", n.name + " shares its address with another word", "choose a free slot");
   }
   if (r.has("format")) {
     n.signal = r.text("format");
@@ -200,10 +194,7 @@ std::vector<Cause> read_causes(config::TomlReader& top, const std::string& secti
   return causes;
 }
 
-}  // namespace
-
-RegisterMap read_registers(const std::string& path) {
-  const toml::table root = config::parse_toml_file(path);
+RegisterMap registers_of(const toml::table& root, const std::string& path) {
   config::TomlReader top(root, path, "the register map");
   RegisterMap map;
   map.path = path;
@@ -217,8 +208,9 @@ RegisterMap read_registers(const std::string& path) {
   }
   check_inputs(map);
   for (config::TomlReader& r : top.sections("control")) map.controls.push_back(read_control(r));
+  std::set<int> snapshot_used;
   for (config::TomlReader& r : top.sections("snapshot")) {
-    map.snapshots.push_back(read_snapshot(r, map));
+    map.snapshots.push_back(read_snapshot(r, snapshot_used));
   }
   for (config::TomlReader& r : top.sections("constant")) {
     map.constants.push_back({r.identifier("name"), small(r, "value", 30), r.text("doc")});
@@ -237,6 +229,16 @@ RegisterMap read_registers(const std::string& path) {
   map.faults = read_causes(top, "fault", "number", 1);
   top.finish();
   return map;
+}
+
+}  // namespace
+
+RegisterMap read_registers(const std::string& path) {
+  return registers_of(config::parse_toml_file(path), path);
+}
+
+RegisterMap registers_from_text(const std::string& text, const std::string& path) {
+  return registers_of(config::parse_toml_text(text, path), path);
 }
 
 }  // namespace feltgate::design

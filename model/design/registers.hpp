@@ -19,19 +19,19 @@ std::string plain_text(config::TomlReader& r, const std::string& key);
 /// One word of the parameter RAM.
 struct Parameter {
   std::string name;
-  std::string label;           ///< in the timing diagram
   std::string scene;           ///< scene of the word; empty: shared by all scenes
-  int slot = 0;                ///< wave clock in which the word is on the parameter bus
-  std::string kind;            ///< coefficient, signed, signal, counts, integer or angle
-  std::string signal;          ///< format of a word of kind signal
+  int slot = 0;                ///< the address; of a scene's word in the scene's bank of 32
+  std::string kind;            ///< coefficient, signed, signal, limit, counts, integer or angle
+  std::string signal;          ///< format of a word of kind signal or limit
   std::string same_format_as;  ///< coefficient whose format the word shares, or empty
   int bits = 31;               ///< of a word of kind integer
+  bool saturates = false;      ///< a larger value of a design becomes the largest that fits
   int headroom_bits = 0;       ///< doublings above the design's value that a coefficient can take
   std::string option;          ///< option that a design needs to have the word; empty: all have it
   std::string while_armed;  ///< effect of a write while the motor is armed: refused, ramps or acts
   std::string unit;
   std::string doc;
-  int address = 0;    ///< slot, or slot within the scene's bank of 32
+  int address = 0;
   std::string place;  ///< "file:line" of the entry, for errors
 };
 
@@ -56,9 +56,7 @@ struct Control {
 
 struct Snapshot {
   std::string name;
-  int slot = 0;              ///< wave clock in which the word is on the operand bus
-  std::string label;         ///< in the timing diagram
-  std::string with;          ///< the coefficient that multiplies it in that clock, or empty
+  int slot = 0;              ///< the address, from the snapshot's first on
   std::string signal, unit;  ///< signal that gives the format; empty: plain bits
   std::string doc;
   std::vector<Field> fields;
@@ -106,5 +104,7 @@ constexpr int snapshot_base = 0x300;
 /// Reads the map. Throws config::ConfigError with file and line for a malformed entry, a slot that
 /// is used twice, or an unknown scene.
 RegisterMap read_registers(const std::string& path);
+/// The same of a text; errors name it `path`.
+RegisterMap registers_from_text(const std::string& text, const std::string& path);
 
 }  // namespace feltgate::design

@@ -24,13 +24,14 @@ module axes_engine #(
     input  logic [AxisCount-1:0] arm_request_i,  // requests to arm, or to stay armed
     input  logic [AxisCount-1:0] armed_i,
     input  logic [AxisCount-1:0] zeroed_i,       // one clock: the position becomes 0
-    input  logic snapshot_i,                // one clock per tick
+    input  logic sample_i,                  // one clock per tick: torque_o and late_o are taken
     input  logic measured_i,                // one clock per tick: the inputs below are new, held
+    input  logic last_i,                    // last clock of a tick
     input  logic [31:0] tick_count_i,
     input  logic [32*AxisCount-1:0] position_i,
     input  logic [32*AxisCount-1:0] velocity_i,
     input  logic [32*AxisCount-1:0] tau_hat_i,
-    output logic [AxisCount*feltgate_pkg::TORQUE_W-1:0] torque_o,
+    output logic [AxisCount*cfg::TORQUE_W-1:0] torque_o,
     output logic late_o,                    // torque_o is too old or not checked
     output logic restart_o,                 // read in a tick's last clock: ramp from then on
     output logic unchecked_o,               // arming must wait for the CRC
@@ -51,7 +52,7 @@ module axes_engine #(
 );
   logic law_any, law_any_q, all_ask, armed, armed_q, fresh, late, changed;
   logic engine_addressed, engine_busy;
-  logic check, checks_q, check_of_these_q, checked_q, crc_done, crc_good;
+  logic check, checks_q, check_of_these_q, checked_q, taken_checked_q, crc_done, crc_good;
   logic [31:0] engine_word;
   assign law_any = |law_i;
   assign all_ask = &arm_request_i;
@@ -59,49 +60,52 @@ module axes_engine #(
   localparam logic [15:0] First = 16'(feltgate_engine_pkg::PORT_FIRST);
   assign engine_addressed = reg_addr_i[15:12] == First[15:12];
 
-  // Arming waits until the CRC of the programs is computed: unchecked_o acts like an axis that does
-  // not request arming, unfit_o then like one that is not ready. Evaluated once per tick, because a
-  // request may come from a pin.
-  assign check       = snapshot_i && all_ask && !checked_q && !checks_q;
-  assign unchecked_o = !checked_q;
+  // Arming waits until the CRC of the programs is computed and the axes have taken late_o, which says
+  // whether it fits: unchecked_o acts like an axis that does not request arming, unfit_o then like one
+  // that is not ready. Evaluated once per tick, because a request may come from a pin.
+  assign check       = last_i && all_ask && !checked_q && !checks_q;
+  assign unchecked_o = !taken_checked_q;
   assign unfit_o     = law_any && checked_q && !crc_good;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       checks_q         <= 1'b0;
       check_of_these_q <= 1'b0;
       checked_q        <= 1'b0;
+      taken_checked_q  <= 1'b0;
     end else begin
       checks_q <= check || (checks_q && !crc_done);
-      if (snapshot_i && !all_ask) begin
+      if (last_i && !all_ask) begin
         check_of_these_q <= 1'b0;
         checked_q        <= 1'b0;
+        taken_checked_q  <= 1'b0;
       end else begin
         if (check) check_of_these_q <= 1'b1;
         if (crc_done && check_of_these_q) checked_q <= 1'b1;
+        if (checked_q && sample_i) taken_checked_q <= 1'b1;
       end
     end
   end
 
   // restart_o is 1 from an event that can make the torque jump until a run that began after it has
-  // ended and its torque was sampled. A run may be in progress at the event, so the second run's
+  // ended and its torque was taken. A run may be in progress at the event, so the second run's
   // end counts.
   logic [1:0] runs_q;
-  logic sampled_q, jumps;
+  logic taken_q, jumps;
   assign jumps     = (law_any && !law_any_q) || (armed && !armed_q) || zeroed_i != '0 || changed;
-  assign restart_o = runs_q != 2'd0 || !sampled_q;
+  assign restart_o = runs_q != 2'd0 || !taken_q;
   assign late_o    = late || !crc_good;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       law_any_q <= 1'b0;
       armed_q   <= 1'b0;
       runs_q    <= '0;
-      sampled_q <= 1'b1;
+      taken_q   <= 1'b1;
     end else begin
       law_any_q <= law_any;
       armed_q   <= armed;
       if (jumps) runs_q <= 2'd2;
       else if (fresh && runs_q != 2'd0) runs_q <= runs_q - 2'd1;
-      sampled_q <= runs_q == 2'd0 && (sampled_q || measured_i);
+      taken_q   <= runs_q == 2'd0 && (taken_q || sample_i);
     end
   end
 
@@ -113,7 +117,7 @@ module axes_engine #(
   end
 
   localparam int AgeBit = feltgate_engine_pkg::B_RESET_MAX_AGE;
-  localparam logic [15:0] MaxAge = Reset[AgeBit+:16] != 16'd0 ? Reset[AgeBit+:16] : 16'(feltgate_pkg::ENGINE_MAX_AGE);
+  localparam logic [15:0] MaxAge = Reset[AgeBit+:16] != 16'd0 ? Reset[AgeBit+:16] : 16'(cfg::ENGINE_MAX_AGE);
   engine #(
       .AxisCount(AxisCount),
       .ProgramContent(ProgramContent), .DataContent(DataContent), .TableContent(TableContent),

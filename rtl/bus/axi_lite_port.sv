@@ -38,8 +38,8 @@ module axi_lite_port (
 
   // 1: an existing word that can be written, at a word-aligned address.
   function automatic logic is_word(input logic [13:0] addr);
-    is_word = addr[1:0] == 2'd0 && (addr[13:11] == 3'd0 || addr[13:2] == feltgate_map_pkg::A_CONTROL ||
-                                    addr[13:2] == feltgate_map_pkg::A_COMMAND);
+    is_word = addr[1:0] == 2'd0 && (addr[13:11] == 3'd0 || addr[13:2] == map::A_CONTROL ||
+                                    addr[13:2] == map::A_COMMAND);
   endfunction
 
   // aw_q, w_q, ar_q: requests that wait for the port. b_q, r_q: responses that wait for the master.
@@ -107,7 +107,7 @@ module axi_lite_port (
         ar_q      <= arvalid_i;
         ar_addr_q <= araddr_i[13:2];
         ar_good_q <= is_word(araddr_i) || (araddr_i[1:0] == 2'd0 &&
-                                           araddr_i[13:8] == feltgate_map_pkg::A_SNAPSHOT[11:6]);
+                                           araddr_i[13:8] == map::A_SNAPSHOT[11:6]);
       end else if (fetches || (asks && !ar_good_q)) ar_q <= 1'b0;
       reading_q <= {reading_q[1:0], fetches};
       if (reading_q[2] || (asks && !ar_good_q)) begin

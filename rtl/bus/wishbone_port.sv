@@ -34,9 +34,9 @@ module wishbone_port #(
   logic [2:0] good_q, bad_q;  // requests in progress, the oldest in bit 2
 
   // Errors: an address without a word, a write to a read-only word, a write of a part of a word.
-  assign at_word     = reg_addr_o[11:9] == 3'd0 || reg_addr_o == feltgate_map_pkg::A_CONTROL ||
-                       reg_addr_o == feltgate_map_pkg::A_COMMAND;
-  assign at_snapshot = reg_addr_o[11:6] == feltgate_map_pkg::A_SNAPSHOT[11:6];
+  assign at_word     = reg_addr_o[11:9] == 3'd0 || reg_addr_o == map::A_CONTROL ||
+                       reg_addr_o == map::A_COMMAND;
+  assign at_snapshot = reg_addr_o[11:6] == map::A_SNAPSHOT[11:6];
   assign good        = we_i ? at_word && sel_i == 4'hf : at_word || at_snapshot;
 
   generate

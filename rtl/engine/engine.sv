@@ -24,7 +24,7 @@ module engine #(
     input  logic [32*AxisCount-1:0] position_i,
     input  logic [32*AxisCount-1:0] velocity_i,
     input  logic [32*AxisCount-1:0] tau_hat_i,
-    output logic signed [feltgate_pkg::TORQUE_W*AxisCount-1:0] torque_o,
+    output logic signed [cfg::TORQUE_W*AxisCount-1:0] torque_o,
     output logic                    fresh_o,
     output logic                    late_o,
     output logic                    changed_o,     // one clock: torques can jump from now on

@@ -40,9 +40,7 @@ module engine_alu (
   logic [31:0] word, addend4_q, factored4_q;
   logic [17:0] factor4_q;
   logic less4_q, negative4_q;
-  /* verilator lint_off UNUSEDSIGNAL */
   logic signed [32:0] difference;  // only its sign is used
-  /* verilator lint_on UNUSEDSIGNAL */
   logic [3:0] op4_q;
   logic [1:0] mode4_q;
   assign difference = 33'(x3_q) - 33'(y3_q);
@@ -198,9 +196,7 @@ module engine_alu (
 
   // Sum and saturation.
   logic signed [33:0] sum;
-  /* verilator lint_off UNUSEDSIGNAL */
   logic sum_below;
-  /* verilator lint_on UNUSEDSIGNAL */
   logic beyond_low, beyond_high, beyond, limited, sign;
   // One adder: the bit below the operands carries in.
   assign {sum, sum_below} = {34'(addend6_q), 1'b1} + {34'(window6_q), carry6_q};

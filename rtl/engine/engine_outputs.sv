@@ -23,11 +23,11 @@ module engine_outputs #(
     input  logic               last_i,
     input  logic        [ 1:0] thread_i,
     input  logic        [ 1:0] number_i,
-    output logic signed [feltgate_pkg::TORQUE_W*AxisCount-1:0] torque_o,
+    output logic signed [cfg::TORQUE_W*AxisCount-1:0] torque_o,
     output logic               fresh_o,    // one clock: all axes renewed since the last fresh_o
     output logic               late_o      // not fresh for > max_age_i ticks; until enter_i
 );
-  localparam int W = feltgate_pkg::TORQUE_W;
+  localparam int W = cfg::TORQUE_W;
 
   logic beyond;
   assign beyond = result_i[30:W-1] != {(32 - W) {result_i[31]}};

@@ -118,7 +118,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 
 #define FELTGATE_WATCHDOG_TICKS 0x02eu  /* host watchdog: longest time between two kicks; asleep until the first [tick] */
 
-#define FELTGATE_VOLTAGE_GAIN_HIGH 0x032u  /* Kv of the high-torque region times 1 ohm, or the resistance; on the bus at slot 34 in that region [ohm] */
+#define FELTGATE_VOLTAGE_GAIN_HIGH 0x032u  /* Kv of the high-torque region times 1 ohm, or the resistance [ohm] */
 
 #define FELTGATE_SELF_TEST_TORQUE 0x033u  /* torque of the self-test's pulse, if it is less than the limits in force [Nm] */
 
@@ -196,7 +196,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_COMMAND_STOP_BIT 5  /* the fault stop, at once, also while another write waits */
 #define FELTGATE_COMMAND_STOP_MASK 0x00000020u
 
-#define FELTGATE_STATUS 0x300u  /* what the core does and what holds it back; limits are those of the previous tick */
+#define FELTGATE_STATUS 0x300u  /* what the core does and what holds it back */
 #define FELTGATE_STATUS_LIMITS_BIT 0  /* what holds the torque back, by its bit */
 #define FELTGATE_STATUS_LIMITS_MASK 0x00000fffu
 #define FELTGATE_STATUS_SCENE_BIT 20  /* scene number */
@@ -441,8 +441,6 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_KICKLESS_BITS 24  /* bits of the longest time without a kick [tick] */
 #define FELTGATE_ARM_WAIT_MS 20  /* for so long a request to arm may wait until the gates open [ms]; then it is refused */
 #define FELTGATE_ABSOLUTE_JUMP_BIT 3  /* of faults.absolute: the angle has jumped */
-#define FELTGATE_ABSOLUTE_ENTRY_BITS 20  /* a correction of an absolute encoder's table is in steps of a turn / 2^20 */
-#define FELTGATE_ABSOLUTE_SEGMENT_BITS 8  /* its table has 2^8 corrections over a turn */
 #define FELTGATE_ONE_CHANNEL_EDGES 16  /* edges of one channel in a row from which it is chatter or a dead channel */
 #define FELTGATE_DEAD_CHANNEL_EDGES 24  /* as many are a dead channel */
 #define FELTGATE_EDGE_UNITS 19  /* so many times 2^EDGE_UNIT_BITS ticks (of the design) without an edge end the row */

@@ -9,22 +9,19 @@
 
 module link_capture #(
     parameter int Rows = 1 << feltgate_link_pkg::ROWS_LOG2,  // a power of two
-    parameter int Events = feltgate_pkg::ENGINE              // 1: an event of a law can trigger
+    parameter int Events = cfg::ENGINE                       // 1: an event of a law can trigger
 ) (
     input  logic        clk_i,
     input  logic        rst_ni,
 
-    // Words of the snapshot as the core stores them; at least one clock without a word between
-    // ticks
+    // Words of the snapshot by number, one at a time; the last one of a tick is the status
     input  logic        word_valid_i,
-    input  logic [ 5:0] word_slot_i,
+    input  logic [ 3:0] word_number_i,
     input  logic [31:0] word_data_i,
 
-    // Events of a law, as they enter the engine's queue
-    /* verilator lint_off UNUSEDSIGNAL */  // without Events
+    // Events of a law, as they enter the engine's queue; not used without Events
     input  logic        event_valid_i,
     input  logic [ 8:0] event_number_i,
-    /* verilator lint_on UNUSEDSIGNAL */
 
     // Registers and memory: rdata_o follows addr_i by 3 clocks, 0 for an address of another block
     input  logic [15:0] addr_i,
@@ -56,11 +53,10 @@ module link_capture #(
   logic runs;
   assign runs = state_q == Fill || state_q == Wait || state_q == Rest;
 
-  // Number of the word on the port; 15: none. ends_q: a tick ends in the clock after its last word.
-  logic       first, ends_q;
-  logic [3:0] number, number_q;
-  assign first  = word_valid_i && word_slot_i == feltgate_link_pkg::FIRST_SLOT;
-  assign number = first ? 4'd0 : number_q;
+  // First and last word of a tick. ends_q: a tick ends in the clock after its last word.
+  logic first, last, within_q, ends_q;
+  assign first = word_valid_i && !within_q;
+  assign last  = word_valid_i && word_number_i == 4'(feltgate_link_pkg::N_STATUS);
 
   // Registers. Those that define the rows cannot change while a capture runs.
   logic [     Words-1:0] words_q;
@@ -104,7 +100,7 @@ module link_capture #(
   // Trigger: compares the word with its value of the previous tick, in every tick, captured or not.
   logic        at_trigger, high, high_q, known_q, hit_q, hand_q, fires;
   logic [31:0] before_q;
-  assign at_trigger = word_valid_i && number == trigger_word_q && number != '1;
+  assign at_trigger = word_valid_i && word_number_i == trigger_word_q;
   assign high       = $signed(word_data_i) >= $signed(level_q);
   always_ff @(posedge clk_i) begin
     if (at_trigger) begin
@@ -144,35 +140,43 @@ module link_capture #(
   logic                  seen_q;                    // a tick has begun since the start
   logic                  begins, takes, taking_q;   // this tick is a row
   logic [PeriodBits-1:0] ticks_q;
-  logic [  ColumnBits:0] column, column_q, columns_q;
+  logic [  ColumnBits:0] column, columns, columns_q;
   logic [   RowBits-1:0] row_q;                     // row to be written next
   logic [     RowBits:0] rows_q, rest, left_q;      // rows_q: whole rows; left_q: rows to take
   logic                  stores, whole;
   assign begins = first && runs && ticks_q == '0;
   assign takes  = first ? begins : taking_q;
-  assign column = first ? '0 : column_q;
-  assign stores = word_valid_i && runs && takes && number != '1 && 1'(words_q >> number) && !column[ColumnBits];
+  assign stores = word_valid_i && runs && takes && 1'(words_q >> word_number_i) && !column[ColumnBits];
   assign whole  = ends_q && runs && taking_q;
   assign fires  = ends_q && state_q == Wait && seen_q && (hit_q || hand_q || event_q);
   assign rest   = FULL - (RowBits + 1)'(pre_q) - (RowBits + 1)'(taking_q);
 
+  // A row has the chosen words by number, at most as many as it has columns.
+  always_comb begin
+    column  = '0;
+    columns = '0;
+    for (int k = 0; k < Words; k++) begin
+      if (4'(k) == word_number_i) column = columns;
+      columns = columns + (ColumnBits + 1)'(words_q[k]);
+    end
+  end
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q   <= Idle;
-      number_q  <= '1;
+      within_q  <= 1'b0;
       ends_q    <= 1'b0;
       seen_q    <= 1'b0;
       taking_q  <= 1'b0;
       hand_q    <= 1'b0;
       ticks_q   <= '0;
-      column_q  <= '0;
       columns_q <= '0;
       row_q     <= '0;
       rows_q    <= '0;
       left_q    <= '0;
     end else begin
-      if (word_valid_i) number_q <= (number == '1) ? number : number + 4'd1;
-      ends_q <= word_valid_i && number == 4'(Words - 1);
+      if (word_valid_i) within_q <= !last;
+      ends_q <= last;
 
       if (triggers) hand_q <= 1'b1;
       if (first) begin
@@ -182,10 +186,9 @@ module link_capture #(
         if (ticks_q != '0) ticks_q <= ticks_q - 1'b1;
         else if (period_q != '0) ticks_q <= period_q - 1'b1;
       end
-      if (word_valid_i) column_q <= column + (ColumnBits + 1)'(stores);
       if (whole) begin
         taking_q  <= 1'b0;
-        columns_q <= column_q;
+        columns_q <= columns[ColumnBits] ? (ColumnBits + 1)'(1 << ColumnBits) : columns;
         row_q     <= row_q + 1'b1;
         rows_q    <= rows_q + 1'b1;
         left_q    <= left_q - 1'b1;

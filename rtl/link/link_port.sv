@@ -10,7 +10,7 @@ module link_port #(
     parameter int Simulated = 0,
     parameter int Board = 0,
     parameter int Features = 0,  // more bits of the word FEATURES
-    parameter int Engine = feltgate_pkg::ENGINE,  // 1: the port also has the engine's words
+    parameter int Engine = cfg::ENGINE,  // 1: the port also has the engine's words
     parameter int Axes = 1       // at the register port, axis n at n * 0x400
 ) (
     input  logic        clk_i,
@@ -51,7 +51,7 @@ module link_port #(
 );
   localparam int AddressW = 14 + Engine;
   localparam logic [AddressW-1:0] STATUS =
-      AddressW'(feltgate_map_pkg::A_SNAPSHOT) + AddressW'(feltgate_map_pkg::READ_AT_STATUS);
+      AddressW'(map::A_SNAPSHOT) + AddressW'(map::S_STATUS);
   // The engine's words have the core's addresses with one more bit on top.
   localparam logic [15:0] OF_PORT = {1'b0, 1'(Engine), 2'd0, 12'hfff};
 
@@ -73,10 +73,10 @@ module link_port #(
   assign reg_write_o = host_write || panel_write;
   assign wdata_o     = data_i;
   // A separate signal, because Yosys (0.23, 0.70) took it for 32 bits inside a concatenation.
-  logic [feltgate_map_pkg::W_COMMAND-1:0] clear_faults;
-  assign clear_faults = feltgate_map_pkg::W_COMMAND'(1) << feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS;
-  assign reg_wdata_o  = {data_i[31:feltgate_map_pkg::W_COMMAND],
-      host_write ? data_i[feltgate_map_pkg::W_COMMAND-1:0] : clear_faults};
+  logic [map::W_COMMAND-1:0] clear_faults;
+  assign clear_faults = map::W_COMMAND'(1) << map::B_COMMAND_CLEAR_FAULTS;
+  assign reg_wdata_o  = {data_i[31:map::W_COMMAND],
+      host_write ? data_i[map::W_COMMAND-1:0] : clear_faults};
 
   // Reply: the head and each word pass through one register, four bytes each.
   localparam logic [1:0] IDLE = 2'd0;
@@ -101,7 +101,7 @@ module link_port #(
   assign last_clock   = of_engine ? ClocksW'(ENGINE_CLOCKS) : ClocksW'(3);
   assign addr_o       = write_o ? 16'(address_i) : 16'(read_address);
   assign reg_addr_o   = OF_PORT & (host_write ? 16'(address_i)
-                      : panel_write ? 16'(feltgate_map_pkg::A_COMMAND) | 16'({clear_axis_q, 10'd0}) : 16'(read_address));
+                      : panel_write ? 16'(map::A_COMMAND) | 16'({clear_axis_q, 10'd0}) : 16'(read_address));
 
   // The link's own words.
   logic [15:0] good_q, bad_q;
@@ -110,9 +110,9 @@ module link_port #(
     case (16'(read_address))
       feltgate_link_pkg::A_IDENTITY:        own = 32'(feltgate_link_pkg::IDENTITY);
       feltgate_link_pkg::A_VERSION:         own = 32'(feltgate_link_pkg::VERSION);
-      feltgate_link_pkg::A_DESIGN_CRC:      own = feltgate_pkg::DESIGN_CRC;
-      feltgate_link_pkg::A_CLOCK_HZ:        own = 32'(feltgate_pkg::CLOCK_HZ);
-      feltgate_link_pkg::A_CLOCKS_PER_TICK: own = 32'(feltgate_pkg::CLOCKS_PER_TICK);
+      feltgate_link_pkg::A_DESIGN_CRC:      own = cfg::DESIGN_CRC;
+      feltgate_link_pkg::A_CLOCK_HZ:        own = 32'(cfg::CLOCK_HZ);
+      feltgate_link_pkg::A_CLOCKS_PER_TICK: own = 32'(cfg::CLOCKS_PER_TICK);
       feltgate_link_pkg::A_FEATURES:
           own = 32'(Features) | (32'(Simulated) << feltgate_link_pkg::B_FEATURES_SIMULATED);
       feltgate_link_pkg::A_FRAMES_GOOD:     own = {16'd0, good_q};

@@ -8,7 +8,7 @@
 `default_nettype none
 
 module link_receiver #(
-    parameter int Engine = feltgate_pkg::ENGINE  // 1: the map also has the engine's words, on top
+    parameter int Engine = cfg::ENGINE  // 1: the map also has the engine's words, on top
 ) (
     input  logic        clk_i,
     input  logic        rst_ni,

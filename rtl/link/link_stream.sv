@@ -11,10 +11,9 @@ module link_stream (
     input  logic        clk_i,
     input  logic        rst_ni,
 
-    // Words of the snapshot as the core stores them; at least one clock without a word between
-    // ticks
+    // Words of the snapshot by number, one at a time; the last one of a tick is the status
     input  logic        word_valid_i,
-    input  logic [ 5:0] word_slot_i,
+    input  logic [ 3:0] word_number_i,
     input  logic [31:0] word_data_i,
 
     // Registers: rdata_o follows addr_i by 3 clocks, 0 for an address of another block
@@ -33,13 +32,13 @@ module link_stream (
   localparam int PeriodBits = 24;
   localparam logic [Words-1:0] ALWAYS = Words'(1) << feltgate_link_pkg::N_TICK;
 
-  // Number of the word on the port; valid from the first slot on.
-  logic       first;
-  logic [3:0] number, number_q;
-  assign first  = word_valid_i && word_slot_i == feltgate_link_pkg::FIRST_SLOT;
-  assign number = first ? 4'd0 : number_q;
-  always_ff @(posedge clk_i) begin
-    if (word_valid_i) number_q <= number + 4'd1;
+  // First and last word of a tick.
+  logic first, last, within_q;
+  assign first = word_valid_i && !within_q;
+  assign last  = word_valid_i && word_number_i == 4'(feltgate_link_pkg::N_STATUS);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) within_q <= 1'b0;
+    else if (word_valid_i) within_q <= !last;
   end
 
   // Registers.
@@ -70,7 +69,7 @@ module link_stream (
   logic [31:0] tick_ram [0:15];
   logic [31:0] word_q;
   always @(posedge clk_i) begin
-    if (word_valid_i && (begins || state_q == Take)) tick_ram[number] <= word_data_i;
+    if (word_valid_i && (begins || state_q == Take)) tick_ram[word_number_i] <= word_data_i;
   end
   always_ff @(posedge clk_i) word_q <= tick_ram[at_q];
 
@@ -119,9 +118,9 @@ module link_stream (
           index_q <= '0;
           left_q  <= words_q | ALWAYS;
           frame_q <= count_q;
-          if (begins) state_q <= Take;
+          if (begins) state_q <= last ? Head : Take;
         end
-        Take: if (word_valid_i && number == 4'(Words - 1)) state_q <= Head;
+        Take: if (last) state_q <= Head;
         Head, Body: begin
           if (ready_i) begin
             index_q <= index_q + 2'd1;

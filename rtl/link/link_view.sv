@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Shows twelve words of several axes as those of one core: after the last word of a tick it gives
-// the chosen words of that tick, one in each clock, to stream and capture. Events follow with the
-// same delay. Documentation: docs/link.md
+// Shows twelve words of several axes as those of one core: after a tick it gives the chosen words of
+// that tick, one in each clock, to stream and capture. Events follow with the same delay. Documentation: docs/link.md
 `default_nettype none
 
 module link_view #(
@@ -12,11 +11,11 @@ module link_view #(
     input  logic        clk_i,
     input  logic        rst_ni,
 
-    // Words of the snapshots as the axes store them, all axes at once; at least one clock without a
-    // word between ticks
-    input  logic                    word_valid_i,
-    input  logic [             5:0] word_slot_i,
+    // Words of the snapshots by number, of each axis one at a time
+    input  logic [   AxisCount-1:0] word_valid_i,
+    input  logic [ AxisCount*4-1:0] word_number_i,
     input  logic [AxisCount*32-1:0] word_data_i,
+    input  logic                    last_i,  // last clock of a tick: all of its words have come
 
     // Events of a law
     input  logic        event_valid_i,
@@ -28,9 +27,9 @@ module link_view #(
     input  logic        write_i,
     output logic [31:0] rdata_o,
 
-    // The chosen words, in the order of their numbers; the first has the first slot
+    // The chosen words by number, with the status at the end
     output logic        word_valid_o,
-    output logic [ 5:0] word_slot_o,
+    output logic [ 3:0] word_number_o,
     output logic [31:0] word_data_o,     // valid with word_valid_o
     output logic        event_valid_o,
     output logic [ 8:0] event_number_o
@@ -40,20 +39,15 @@ module link_view #(
   localparam logic [15:0] FIRST = 16'h1030;
   localparam logic [15:0] AXES = 16'h103f;
   localparam int ChoiceBits = 6;  // axis, 2 bits; number of the word, 4 bits
-  localparam int Delay = Words + 1;  // from the last word of a tick to the last of the view
+  localparam int Delay = Words + 1;  // from the last clock of a tick to the last word of the view
   localparam logic [3:0] TICK = 4'(feltgate_link_pkg::N_TICK);
+  localparam logic [3:0] STATUS = 4'(feltgate_link_pkg::N_STATUS);
 
   generate
   if (AxisCount < 1 || AxisCount > 3) begin : g_check_axes
     AXES_must_be_1_to_3 missing ();
   end
   endgenerate
-
-  // Number of the word on the port, from the first slot on; a word that is none of the twelve shows nothing.
-  logic       last;
-  logic [3:0] number, number_q;
-  assign number = (word_slot_i == feltgate_link_pkg::FIRST_SLOT) ? 4'd0 : number_q;
-  assign last   = word_valid_i && number == 4'(Words - 1);
 
   // Choices. The word `tick` is that of axis 0 always: a frame without it says nothing.
   logic [ChoiceBits-1:0] choices_q [0:Words-1];
@@ -73,27 +67,25 @@ module link_view #(
   logic [3:0] at_q;
   logic [1:0] axis_q;
   logic [ChoiceBits-1:0] choice;
-  logic [4:0] write_at, read_at;
+  logic [4:0] read_at;
   assign choice   = choices_q[at_q];
-  assign write_at = {half_q, number};
   assign read_at  = {!half_q, choice[3:0]};
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      number_q     <= '1;
-      half_q       <= 1'b0;
-      plays_q      <= 1'b0;
-      at_q         <= '0;
-      axis_q       <= '0;
-      word_valid_o <= 1'b0;
-      word_slot_o  <= feltgate_link_pkg::FIRST_SLOT;
+      half_q        <= 1'b0;
+      plays_q       <= 1'b0;
+      at_q          <= '0;
+      axis_q        <= '0;
+      word_valid_o  <= 1'b0;
+      word_number_o <= '0;
     end else begin
-      if (word_valid_i) number_q <= (number == '1) ? number : number + 4'd1;
-      half_q       <= half_q ^ last;
-      plays_q      <= last || (plays_q && at_q != 4'(Words - 1));
-      at_q         <= (last || !plays_q || at_q == 4'(Words - 1)) ? 4'd0 : at_q + 4'd1;
-      axis_q       <= choice[5:4];
-      word_valid_o <= plays_q;
-      word_slot_o  <= feltgate_link_pkg::FIRST_SLOT + 6'(at_q);
+      half_q  <= half_q ^ last_i;
+      plays_q <= last_i || (plays_q && at_q != STATUS);
+      if (last_i) at_q       <= STATUS + 4'd1;
+      else if (plays_q) at_q <= (at_q == 4'(Words - 1)) ? 4'd0 : at_q + 4'd1;
+      axis_q        <= choice[5:4];
+      word_valid_o  <= plays_q;
+      word_number_o <= at_q;
     end
   end
 
@@ -105,7 +97,7 @@ module link_view #(
     logic [31:0] ram [0:31];
     logic [31:0] word_q;
     always @(posedge clk_i) begin
-      if (word_valid_i) ram[write_at] <= word_data_i[32*n+:32];
+      if (word_valid_i[n]) ram[{half_q, word_number_i[4*n+:4]}] <= word_data_i[32*n+:32];
     end
     always_ff @(posedge clk_i) word_q <= ram[read_at];
     assign words[32*n+:32] = word_q;

@@ -6,7 +6,7 @@
 `default_nettype none
 
 module uart_tx #(
-    parameter int ClockHz = feltgate_pkg::CLOCK_HZ,
+    parameter int ClockHz = cfg::CLOCK_HZ,
     parameter int Baud = feltgate_link_pkg::BAUD
 ) (
     input  logic       clk_i,

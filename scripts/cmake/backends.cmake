@@ -1,48 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate::backends: the twin and the real chains of each design in rtl/designs, by name.
-# rtl.cmake adds the back-ends of the Verilated core.
+# feltgate::backends: the twin and the chains of any design. rtl.cmake adds the back-ends of Verilated cores.
 include_guard(GLOBAL)
 
+# FELTGATE_DESIGNS: those whose RTL is in every program that has some. That of FELTGATE_OTHERS is in programs of their own.
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
-# A new design gets its back-ends once its files are generated: then this list changes.
-file(GLOB generated CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/*/feltgate_pkg.sv")
-# Presets are in programs of their own: presets.cmake, python.cmake.
-set(presets "${FELTGATE_ROOT}/rtl/designs/presets.txt")
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${presets}")
-file(STRINGS "${presets}" FELTGATE_PRESETS REGEX "^[a-z]")
-foreach(preset IN LISTS FELTGATE_PRESETS)
-  list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
-endforeach()
+list(TRANSFORM designs REPLACE "^.*/(.*)\\.toml$" "\\1" OUTPUT_VARIABLE FELTGATE_OTHERS)
+set(FELTGATE_DESIGNS lever paper)
+list(REMOVE_ITEM FELTGATE_OTHERS ${FELTGATE_DESIGNS})
 
-# feltgate_part_of(<variable> <file> <part>): the lines between "== PART" and the next such line, or the end.
-function(feltgate_part_of variable file part)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
-  file(READ "${file}" text)
-  set(head "\n== ${part}\n")
-  string(FIND "${text}" "${head}" begin)
-  if(begin EQUAL -1)
-    message(FATAL_ERROR "${file}: no part ${part}")
-  endif()
-  string(LENGTH "${head}" length)
-  math(EXPR begin "${begin} + ${length}")
-  string(SUBSTRING "${text}" ${begin} -1 text)
-  string(FIND "${text}" "\n== " end)
-  if(NOT end EQUAL -1)
-    math(EXPR end "${end} + 1")
-  endif()
-  string(SUBSTRING "${text}" 0 ${end} text)
-  set(${variable} "${text}" PARENT_SCOPE)
-endfunction()
-
-# feltgate_for_design(<part> <output>): that part of design.cpp.in, filled for ${design} of C++ type ${type}.
-function(feltgate_for_design part output)
-  feltgate_part_of(text "${FELTGATE_ROOT}/scripts/cmake/design.cpp.in" ${part})
-  file(CONFIGURE OUTPUT "${output}" CONTENT "${text}" @ONLY)
-endfunction()
-
-# feltgate_type_of(<design> <variable>): its C++ type, the name in UpperCamelCase, as the generator
+# feltgate_type_of(<design> <variable>): the type of its generated header, the name in UpperCamelCase, as the generator
 # writes it.
 function(feltgate_type_of design variable)
   string(REGEX REPLACE "[-_]" ";" words "${design}")
@@ -56,39 +24,47 @@ function(feltgate_type_of design variable)
   set(${variable} "${type}" PARENT_SCOPE)
 endfunction()
 
+# The packages and C++ headers of all designs, made of their files at build time: the headers as feltgate/generated/NAME.hpp,
+# for tests and for what knows a Verilated core.
+set(FELTGATE_HEADERS "${PROJECT_BINARY_DIR}/designs/include")
+set(headers "")
+foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_OTHERS)
+  set(folder "${PROJECT_BINARY_DIR}/designs/${design}")
+  set(header "${FELTGATE_HEADERS}/feltgate/generated/${design}.hpp")
+  add_custom_command(OUTPUT "${folder}/cfg.sv" "${header}"
+    COMMAND feltgate_generate "${FELTGATE_ROOT}" --design "${FELTGATE_ROOT}/rtl/designs/${design}.toml" --output "${folder}"
+    COMMAND ${CMAKE_COMMAND} -E copy_if_different "${folder}/${design}.hpp" "${header}"
+    COMMAND ${CMAKE_COMMAND} -E touch "${folder}/cfg.sv" "${header}"
+    DEPENDS feltgate_generate "${FELTGATE_ROOT}/rtl/designs/${design}.toml" "${FELTGATE_ROOT}/rtl/registers.toml" VERBATIM)
+  list(APPEND headers "${header}")
+endforeach()
+add_custom_target(feltgate_headers DEPENDS ${headers})
+
+# feltgate_package(<variable> <design>): its cfg.sv. Three are committed.
+function(feltgate_package variable design)
+  set(package "${FELTGATE_ROOT}/rtl/generated/${design}/cfg.sv")
+  if(NOT EXISTS "${package}")
+    set(package "${PROJECT_BINARY_DIR}/designs/${design}/cfg.sv")
+  endif()
+  set(${variable} "${package}" PARENT_SCOPE)
+endfunction()
+
 # What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
 set(FELTGATE_BACKEND_OPTIONS ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)
-# The registry alone, for what leaves the choice of the designs to the program.
+# The laws of any design tick by tick, in integers and in real arithmetic.
+feltgate_sim_library(chain sim/reference)
+target_compile_options(feltgate_chain PRIVATE ${FELTGATE_BACKEND_OPTIONS})
+# Twins of the designs that the program names.
 add_library(feltgate_registry STATIC "${FELTGATE_ROOT}/model/sim/backends/backend.cpp"
   "${FELTGATE_ROOT}/model/sim/backends/axes_cores.cpp")
-target_compile_options(feltgate_registry PRIVATE ${FELTGATE_WARNINGS})
-target_link_libraries(feltgate_registry PUBLIC feltgate_model PRIVATE fmt::fmt)
+target_compile_options(feltgate_registry PRIVATE ${FELTGATE_BACKEND_OPTIONS})
+target_link_libraries(feltgate_registry PUBLIC feltgate_chain PRIVATE fmt::fmt)
 feltgate_export(registry)
 
-add_library(feltgate_backends STATIC "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp")
-set(FELTGATE_DESIGNS "")
-set(registrations "")
-foreach(path IN LISTS designs)
-  get_filename_component(design "${path}" NAME_WE)
-  if(NOT EXISTS "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv")
-    message(STATUS "design ${design} has no generated files yet: run `feltgate generate`")
-    continue()
-  endif()
-  feltgate_type_of(${design} type)
-  set(FELTGATE_TYPE_${design} ${type})
-  list(APPEND FELTGATE_DESIGNS ${design})
-  feltgate_for_design(backends "${PROJECT_BINARY_DIR}/backends/${design}_backends.cpp")
-  # Objects, so that a program may take one design alone.
-  add_library(design_${design} OBJECT "${PROJECT_BINARY_DIR}/backends/${design}_backends.cpp")
-  target_compile_options(design_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
-  target_link_libraries(design_${design} PRIVATE feltgate_model fmt::fmt)
-  target_sources(feltgate_backends PRIVATE $<TARGET_OBJECTS:design_${design}>)
-  string(APPEND registrations "FELTGATE_DESIGN(${design})\n")
-endforeach()
-file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/designs.inc" CONTENT "${registrations}")
-target_link_libraries(feltgate_backends PUBLIC feltgate_registry PRIVATE fmt::fmt)
-# An archive's member is linked where something asks for it: this asks for the registration.
-target_link_options(feltgate_backends INTERFACE "LINKER:--undefined=feltgate_built_in_designs")
-target_include_directories(feltgate_backends PRIVATE "${PROJECT_BINARY_DIR}/backends")
-target_compile_options(feltgate_backends PRIVATE ${FELTGATE_BACKEND_OPTIONS})
+# With those of rtl/designs, and those of files.
+add_library(feltgate_backends STATIC "${FELTGATE_ROOT}/model/sim/backends/shipped_designs.cpp")
+target_compile_options(feltgate_backends PRIVATE ${FELTGATE_WARNINGS})
+target_link_libraries(feltgate_backends PUBLIC feltgate_registry feltgate_design)
+# An archive's member is linked where something asks for it: this asks for the source of the designs.
+target_link_options(feltgate_backends INTERFACE "LINKER:--undefined=feltgate_shipped_designs")
 feltgate_export(backends)

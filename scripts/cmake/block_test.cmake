@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_block_test(<block> [WITH_DEFECTS | DEFECT_FILE <file>] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
-#                     [ROUNDING <mode>] [SOURCES extra.sv...] [PARAMS -GName=value...]
+# feltgate_block_test(<block> [WITH_DEFECTS | DEFECT_FILE <file>] [NAME <test>] [DESIGN <design> | PACKAGE <cfg.sv>]
+#                     [SOURCES extra.sv...] [PARAMS -GName=value...]
 #                     [DEFINES NAME=value...] [LIBRARIES target...] [TESTS more.cpp...])
 # verilates the RTL of the block, links it with testbench/<room>/<block>/<block>_test.cpp and with the TESTS in
 # the same folder, and adds the CTest <test> (default <block>, labels unit and lockstep).
 # WITH_DEFECTS: also <test>.<defect> (label mutation) for each defect in the folder's defects.diff, which passes only when an
 # assertion fails, and mutate.<test>, a share of the block's mutants. DEFECT_FILE: those of another file, without mutants.
-# ROUNDING is another value of the package's constant. SOURCES are relative to the repository. PARAMS
+# SOURCES are relative to the repository. PARAMS
 # go to the RTL, DEFINES to the test. <test>_cover is the same test on RTL with coverage counters.
 # docs/testing.md
 include_guard(GLOBAL)
@@ -33,7 +33,10 @@ if(NOT TARGET feltgate_catch_main)
   add_library(feltgate_catch_main STATIC
     ${FELTGATE_ROOT}/testbench/common/catch_main.cpp ${FELTGATE_ROOT}/testbench/common/mismatch.cpp)
   target_include_directories(feltgate_catch_main PUBLIC
-    ${FELTGATE_ROOT}/testbench/common ${FELTGATE_ROOT}/model/include)
+    ${FELTGATE_ROOT}/testbench/common ${FELTGATE_ROOT}/model/include ${FELTGATE_HEADERS})
+  if(TARGET feltgate_headers)
+    add_dependencies(feltgate_catch_main feltgate_headers)
+  endif()
   target_compile_definitions(feltgate_catch_main PUBLIC
     FELTGATE_BUILD_DIR="${PROJECT_BINARY_DIR}" FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
   target_compile_features(feltgate_catch_main PUBLIC cxx_std_17)
@@ -56,18 +59,8 @@ if(FELTGATE_RTL AND NOT TARGET feltgate_lock_step)
     "${FELTGATE_ROOT}/testbench/common/catch.hpp" "${FELTGATE_ROOT}/testbench/common/lock_step.hpp")
 endif()
 
-# feltgate_rounding_package(<variable> <package> <mode>): the package with another constant ROUNDING.
-function(feltgate_rounding_package variable package mode)
-  set(changed "${CMAKE_CURRENT_BINARY_DIR}/rounding_${mode}/feltgate_pkg.sv")
-  file(READ "${package}" text)
-  string(REGEX REPLACE "ROUNDING = [0-9]+;" "ROUNDING = ${mode};" text "${text}")
-  file(CONFIGURE OUTPUT "${changed}" CONTENT "${text}" @ONLY)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${package}")
-  set(${variable} "${changed}" PARENT_SCOPE)
-endfunction()
-
 function(feltgate_block_test block)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_DEFECTS" "DEFECTS;DEFECT_FILE;NAME;DESIGN;PACKAGE;ROUNDING" "SOURCES;PARAMS;DEFINES;LIBRARIES;TESTS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_DEFECTS" "DEFECTS;DEFECT_FILE;NAME;DESIGN;PACKAGE" "SOURCES;PARAMS;DEFINES;LIBRARIES;TESTS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "feltgate_block_test(${block}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -81,10 +74,7 @@ function(feltgate_block_test block)
     message(FATAL_ERROR "${block}: DEFECTS ${arg_DEFECTS}; defects are in defects.diff, say WITH_DEFECTS")
   endif()
   if(NOT arg_PACKAGE)
-    set(arg_PACKAGE "${FELTGATE_ROOT}/rtl/generated/${arg_DESIGN}/feltgate_pkg.sv")
-  endif()
-  if(DEFINED arg_ROUNDING)
-    feltgate_rounding_package(arg_PACKAGE "${arg_PACKAGE}" ${arg_ROUNDING})
+    feltgate_package(arg_PACKAGE ${arg_DESIGN})
   endif()
   set(package "${arg_PACKAGE}" "${FELTGATE_MAP_PACKAGE}")
   set(sources "")
@@ -92,8 +82,8 @@ function(feltgate_block_test block)
     get_filename_component(source "${source}" ABSOLUTE BASE_DIR "${FELTGATE_ROOT}")
     list(APPEND sources "${source}")
   endforeach()
-  # In a room of the core, or beside it: rtl/link and rtl/engine with their packages, rtl/bus, rtl/axes.
-  file(GLOB own "${FELTGATE_ROOT}/rtl/core/*/${block}.sv" "${FELTGATE_ROOT}/rtl/*/${block}.sv")
+  # rtl/link and rtl/engine have packages of their own.
+  file(GLOB own "${FELTGATE_ROOT}/rtl/*/${block}.sv")
   list(APPEND sources ${own})
   foreach(folder link engine)
     if(own MATCHES "/rtl/${folder}/")

@@ -19,7 +19,7 @@ function(feltgate_cover_program test block sources)
     list(APPEND points -DCOVER_${name})
   endforeach()
   # A cover point samples a reset that its block takes between the clocks, and looks at some bits of a signal.
-  feltgate_verilate(${test}_cover_rtl ${block} "${folder}/coverage.vlt;${sources};${folder}/points_chain.sv;${folder}/points_core.sv" COVERAGE
+  feltgate_verilate(${test}_cover_rtl ${block} "${folder}/coverage.vlt;${sources};${folder}/points_core.sv" COVERAGE
     ${points} --flatten -Wno-SYNCASYNCNET -Wno-UNUSEDSIGNAL ${arg_PARAMS})
   target_compile_options(${test}_cover_rtl PRIVATE -O1)
   add_executable(${test}_cover EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${test}_object>)

@@ -11,7 +11,7 @@ if(NOT FELTGATE_YOSYS)
   return()
 endif()
 set(faults_folder "${FELTGATE_ROOT}/testbench/campaigns/faults")
-set(FELTGATE_LEVER_PACKAGE "${FELTGATE_ROOT}/rtl/generated/lever/feltgate_pkg.sv")
+set(FELTGATE_LEVER_PACKAGE "${FELTGATE_ROOT}/rtl/generated/lever/cfg.sv")
 find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
 
 # Vfaults: the core of design lever, and which member of it is which flip-flop.
@@ -32,7 +32,8 @@ add_library(feltgate_fault_campaign STATIC ${faults_sources} "${faults_flops}")
 target_compile_options(feltgate_fault_campaign PRIVATE ${FELTGATE_WARNINGS} -O2)
 target_include_directories(feltgate_fault_campaign
   PUBLIC "${FELTGATE_ROOT}/testbench" "${FELTGATE_ROOT}/testbench/common")
-target_include_directories(feltgate_fault_campaign SYSTEM PUBLIC "${PROJECT_BINARY_DIR}/faults")
+target_include_directories(feltgate_fault_campaign SYSTEM PUBLIC "${PROJECT_BINARY_DIR}/faults" "${FELTGATE_HEADERS}")
+add_dependencies(feltgate_fault_campaign feltgate_headers)
 target_link_libraries(feltgate_fault_campaign PUBLIC faults_core feltgate_backends feltgate_plant_files feltgate_traces
   PRIVATE nlohmann_json::nlohmann_json fmt::fmt)
 

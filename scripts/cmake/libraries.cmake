@@ -85,6 +85,17 @@ target_include_directories(feltgate_config SYSTEM PUBLIC
 # Output files that are whole or not there.
 feltgate_sim_library(files files)
 feltgate_sim_library(design design feltgate_config)
+# It has the designs as texts, so that nothing needs their files at run time.
+file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
+set(embedded "${PROJECT_BINARY_DIR}/shipped_designs.cpp")
+add_custom_command(OUTPUT "${embedded}"
+  COMMAND ${CMAKE_COMMAND} "-DROOT=${FELTGATE_ROOT}" "-DOUTPUT=${embedded}" -P "${CMAKE_CURRENT_LIST_DIR}/embed_designs.cmake"
+  DEPENDS ${designs} "${FELTGATE_ROOT}/rtl/registers.toml" "${CMAKE_CURRENT_LIST_DIR}/embed_designs.cmake" VERBATIM)
+target_sources(feltgate_design PRIVATE "${embedded}")
+# Writes what follows from the files of designs.
+add_executable(feltgate_generate EXCLUDE_FROM_ALL "${FELTGATE_ROOT}/model/apps/commands/generate_main.cpp")
+target_compile_options(feltgate_generate PRIVATE ${FELTGATE_WARNINGS} -O1)
+target_link_libraries(feltgate_generate PRIVATE feltgate_design fmt::fmt)
 
 feltgate_sim_library(bounds studies/bounds feltgate_design Boost::headers)
 

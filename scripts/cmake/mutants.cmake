@@ -8,7 +8,7 @@ include_guard(GLOBAL)
 set(FELTGATE_MUTANTS 400 CACHE STRING "mutants of each block")
 set(FELTGATE_MUTANTS_SHARE 20 CACHE STRING "mutants that every test run tries of each")
 # Blocks of which these are tried; of the others with --whole.
-set(FELTGATE_MUTANT_BLOCKS dob limiter link_receiver ramp scene_wall sequencer velocity_jump)
+set(FELTGATE_MUTANT_BLOCKS arming link_receiver observer ramp registers scene torque_law)
 # Blocks whose children have mutants of their own: only their own cells and the children's pins change.
 set(FELTGATE_MUTANT_TOPS feltgate_core feltgate_linked axes_engine)
 set(FELTGATE_MUTANT_SEED 1 CACHE STRING "which mutants these are")
@@ -43,7 +43,7 @@ function(feltgate_mutants test block sources libraries)
     COMMENT "Making mutants of ${test}" VERBATIM)
   # Packages for the types of the ports. Yosys' Verilog is not written to please a linter.
   set(packages ${sources})
-  list(FILTER packages INCLUDE REGEX "_pkg\\.sv$")
+  list(FILTER packages INCLUDE REGEX "(_pkg|/cfg|/map)\\.sv$")
   feltgate_verilate(${target}_rtl ${block} "${packages};${folder}/${block}.sv"
     -Wno-fatal -Wno-lint -Wno-style -Wno-UNOPTFLAT --trace-depth 1 --flatten ${ARGN})
   target_compile_options(${target}_rtl PRIVATE -O1)

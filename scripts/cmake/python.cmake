@@ -12,7 +12,6 @@ if(NOT pybind11_FOUND)
   message(FATAL_ERROR "pybind11 is missing; run: apt-get install pybind11-dev")
 endif()
 
-set(FELTGATE_EXTRA_DESIGNS "" CACHE STRING "Design files of your own that the package gets too")
 # lever in shorter words, for docs/fixed_against_float.ipynb; too coarse for a design for use.
 set(narrow "${PROJECT_BINARY_DIR}/designs/narrow.toml")
 file(READ "${FELTGATE_ROOT}/rtl/designs/lever.toml" text)
@@ -24,36 +23,7 @@ endforeach()
 string(REGEX REPLACE "\ndescription = [^\n]*" "\ndescription = \"lever in shorter words\"" text "${text}")
 file(CONFIGURE OUTPUT "${narrow}" CONTENT "${text}" @ONLY)
 
-if(NOT TARGET feltgate_generate)
-  add_executable(feltgate_generate "${FELTGATE_ROOT}/model/apps/commands/generate_main.cpp")
-  target_link_libraries(feltgate_generate PRIVATE feltgate_design fmt::fmt)
-endif()
-set(extra_names "")
-set(installed_from "")  # the files that the designs of the package are of
-set(extra_sources "")
-foreach(design IN LISTS FELTGATE_DESIGNS)
-  string(APPEND installed_from "${design}=${FELTGATE_ROOT}/rtl/designs/${design}.toml\n")
-endforeach()
-foreach(path IN LISTS FELTGATE_EXTRA_DESIGNS ITEMS "${narrow}")
-  get_filename_component(path "${path}" ABSOLUTE BASE_DIR "${FELTGATE_ROOT}")
-  get_filename_component(design "${path}" NAME_WE)
-  feltgate_type_of(${design} type)
-  set(folder "${PROJECT_BINARY_DIR}/designs/${design}")
-  add_custom_command(OUTPUT "${folder}/${design}.hpp" "${folder}/feltgate_pkg.sv"
-    COMMAND feltgate_generate "${FELTGATE_ROOT}" --design "${path}" --output "${folder}" --allow-coarse
-    COMMAND ${CMAKE_COMMAND} -E touch "${folder}/${design}.hpp" "${folder}/feltgate_pkg.sv"
-    DEPENDS feltgate_generate "${path}" "${FELTGATE_ROOT}/rtl/registers.toml" VERBATIM)
-  set(header "${design}.hpp")
-  feltgate_for_design(python "${folder}/${design}_makers.cpp")
-  list(APPEND extra_sources "${folder}/${design}_makers.cpp" "${folder}/${design}.hpp")
-  string(APPEND extra_names "FELTGATE_DESIGN(${design})\n")
-  string(APPEND installed_from "${design}=${path}\n")
-  install(FILES "${path}" DESTINATION feltgate/data/rtl/designs COMPONENT python EXCLUDE_FROM_ALL)
-endforeach()
-file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/designs/installed_from.txt" CONTENT "${installed_from}")
-install(FILES "${PROJECT_BINARY_DIR}/designs/installed_from.txt" DESTINATION feltgate/data/rtl/designs
-  COMPONENT python EXCLUDE_FROM_ALL)
-file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/designs/extra_designs.inc" CONTENT "${extra_names}")
+install(FILES "${narrow}" DESTINATION feltgate/data/rtl/designs COMPONENT python EXCLUDE_FROM_ALL)
 
 file(GLOB sources CONFIGURE_DEPENDS "${FELTGATE_ROOT}/model/apps/python/*.cpp")
 set(host "${FELTGATE_ROOT}/model/apps/python/host_binding.cpp")
@@ -64,20 +34,7 @@ set_target_properties(feltgate_python PROPERTIES OUTPUT_NAME _core)
 feltgate_unity(feltgate_python)
 target_compile_options(feltgate_python PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_python PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
-target_include_directories(feltgate_python PRIVATE "${PROJECT_BINARY_DIR}/designs")
-target_link_libraries(feltgate_python PRIVATE feltgate_backends feltgate_loop fmt::fmt)
-
-# Designs beyond lever and paper, loaded when one is used.
-pybind11_add_module(feltgate_python_designs MODULE NO_EXTRAS
-  "${FELTGATE_ROOT}/model/apps/python/designs/module.cpp" ${extra_sources})
-set_target_properties(feltgate_python_designs PROPERTIES OUTPUT_NAME _designs)
-target_compile_options(feltgate_python_designs PRIVATE ${FELTGATE_BACKEND_OPTIONS})
-target_include_directories(feltgate_python_designs PRIVATE "${PROJECT_BINARY_DIR}/designs")
-foreach(source IN LISTS extra_sources)
-  get_filename_component(folder "${source}" DIRECTORY)
-  target_include_directories(feltgate_python_designs PRIVATE "${folder}")
-endforeach()
-target_link_libraries(feltgate_python_designs PRIVATE feltgate_registry fmt::fmt)
+target_link_libraries(feltgate_python PRIVATE feltgate_registry feltgate_loop fmt::fmt)
 
 # The host's side of the link with the compiler of laws, loaded when it is used.
 pybind11_add_module(feltgate_python_host MODULE NO_EXTRAS "${host}")
@@ -102,7 +59,7 @@ if(FELTGATE_PYTHON)
   endforeach()
 endif()
 
-install(TARGETS feltgate_python feltgate_python_designs feltgate_python_host LIBRARY DESTINATION feltgate COMPONENT python EXCLUDE_FROM_ALL)
+install(TARGETS feltgate_python feltgate_python_host LIBRARY DESTINATION feltgate COMPONENT python EXCLUDE_FROM_ALL)
 install(DIRECTORY "${FELTGATE_ROOT}/model/apps/python/feltgate" DESTINATION . COMPONENT python EXCLUDE_FROM_ALL
   FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 # The folders keep their places, so that FELTGATE_ROOT may name a repository instead.

@@ -45,30 +45,32 @@ target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
 # Eigen: its tests run within 5 % as long, and it compiles in three quarters of the time.
 target_compile_options(feltgate_stability PRIVATE -O1)
 
+# Sizes of the blocks of `lever`, as `feltgate synth --update` wrote them.
+set(areas docs/verification/areas.json)
+set_property(DIRECTORY "${CMAKE_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${areas})
+file(READ "${CMAKE_SOURCE_DIR}/${areas}" figures)
+foreach(block observer velocity_estimator travel_window axes_engine)
+  string(JSON size ERROR_VARIABLE missing GET "${figures}" figures lever ${block} lut4_equivalents)
+  if(missing)
+    message(FATAL_ERROR "${areas}: no size of lever's ${block} (${missing}); run `feltgate synth --update`")
+  endif()
+  set(${block}_lut4 ${size})
+endforeach()
+math(EXPR lowpass_lut4 "${velocity_estimator_lut4} - ${travel_window_lut4}")  # what is left of it is its low-pass
+
 # Scenes at several rates.
 feltgate_library(feltgate_rates studies/rates feltgate_stability feltgate_loop feltgate_law_loop
   feltgate_axes_loop)
 target_link_libraries(feltgate_rates PRIVATE nlohmann_json::nlohmann_json)
 target_compile_definitions(feltgate_rates PRIVATE
-  FELTGATE_VERSION="${PROJECT_VERSION}")
+  FELTGATE_VERSION="${PROJECT_VERSION}" FELTGATE_LUT4_ENGINE=${axes_engine_lut4})
 target_compile_options(feltgate_rates PRIVATE -O1)
 
 # The observer beside other controllers.
 feltgate_library(feltgate_controllers studies/controllers feltgate_stability feltgate_loop)
 target_link_libraries(feltgate_controllers PRIVATE nlohmann_json::nlohmann_json)
-target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
-# Sizes of the blocks of `lever`, as `feltgate synth --update` wrote them.
-set(areas docs/verification/areas.json)
-set_property(DIRECTORY "${CMAKE_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${areas})
-file(READ "${CMAKE_SOURCE_DIR}/${areas}" figures)
-foreach(block dob lowpass)
-  string(JSON size ERROR_VARIABLE missing GET "${figures}" figures lever ${block} lut4_equivalents)
-  if(missing)
-    message(FATAL_ERROR "${areas}: no size of lever's ${block} (${missing}); run `feltgate synth --update`")
-  endif()
-  string(TOUPPER ${block} upper)
-  target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_LUT4_${upper}=${size})
-endforeach()
+target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}"
+  FELTGATE_LUT4_OBSERVER=${observer_lut4} FELTGATE_LUT4_LOWPASS=${lowpass_lut4})
 
 # Constants of a motor from readings and recordings: the verbs calibrate and identify of a host.
 feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_traces Eigen3::Eigen
@@ -84,40 +86,8 @@ target_compile_options(feltgate_identify PRIVATE -O1)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
 feltgate_library(feltgate_page apps/page EXCEPT "_api" feltgate_backends feltgate_loop feltgate_design feltgate_law_loop
   feltgate_axes_loop feltgate_shape feltgate_proxy)
-# Presets of several axes, and those of one without an engine.
-set(FELTGATE_AXES_PRESETS "")
-set(FELTGATE_CORE_PRESETS "")
-foreach(design IN LISTS FELTGATE_PRESETS)
-  set(package "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv")
-  if(NOT EXISTS "${package}")
-    continue()
-  endif()
-  file(STRINGS "${package}" several REGEX " AXES = [23];")
-  file(STRINGS "${package}" engine REGEX " ENGINE = 1;")
-  if(several)
-    list(APPEND FELTGATE_AXES_PRESETS ${design})
-  elseif(NOT engine)
-    list(APPEND FELTGATE_CORE_PRESETS ${design})
-  endif()
-endforeach()
-foreach(design lever_law ${FELTGATE_CORE_PRESETS} ${FELTGATE_AXES_PRESETS})
-  feltgate_type_of(${design} type)
-  set(part twin)
-  if(design IN_LIST FELTGATE_AXES_PRESETS)
-    set(part axes_twin)
-  endif()
-  feltgate_for_design(${part} "${PROJECT_BINARY_DIR}/backends/${design}_twin.cpp")
-  # Objects: what registers the back-end stays in every program that takes them.
-  add_library(twin_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/backends/${design}_twin.cpp")
-  target_compile_options(twin_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
-  target_link_libraries(twin_${design} PRIVATE feltgate_registry fmt::fmt)
-  if(design IN_LIST FELTGATE_CORE_PRESETS)  # an FMU has it too
-    set_target_properties(twin_${design} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  endif()
-endforeach()
-set(page_twins $<TARGET_OBJECTS:twin_fast> $<TARGET_OBJECTS:twin_lever_law> $<TARGET_OBJECTS:twin_gimbal_motor>)
 add_executable(feltgate_page_data EXCLUDE_FROM_ALL
-  "${FELTGATE_ROOT}/model/apps/page/data_main.cpp" ${page_twins})
+  "${FELTGATE_ROOT}/model/apps/page/data_main.cpp")
 target_compile_options(feltgate_page_data PRIVATE ${FELTGATE_WARNINGS})
 target_compile_definitions(feltgate_page_data PRIVATE FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
 target_link_libraries(feltgate_page_data PRIVATE feltgate_page nlohmann_json::nlohmann_json fmt::fmt)
@@ -142,8 +112,6 @@ foreach(name feltgate_mesh feltgate_proxy)
   target_compile_options(${name} PRIVATE -O2)
 endforeach()
 
-feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
-
 file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/commands"
   "${FELTGATE_ROOT}/model/apps/commands/*.cpp")
 list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$|^(commands|command_line)\\.cpp$")
@@ -160,17 +128,10 @@ target_compile_definitions(feltgate_run_parts PRIVATE
 target_precompile_headers(feltgate_run_parts REUSE_FROM feltgate_command_line)
 feltgate_unity(feltgate_run_parts)
 target_link_libraries(feltgate_run_parts PRIVATE ${run_libraries})
-feltgate_program(feltgate_twin run_main.cpp ${run_libraries})
-feltgate_program(feltgate_run run_main.cpp ${run_libraries} core_lever)
-foreach(program feltgate_twin feltgate_run)
-  target_sources(${program} PRIVATE $<TARGET_OBJECTS:feltgate_run_parts> $<TARGET_OBJECTS:design_lever>
-    "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp")
-  target_include_directories(${program} PRIVATE "${PROJECT_BINARY_DIR}/backends/lever_alone")
-endforeach()
-target_sources(feltgate_run PRIVATE $<TARGET_OBJECTS:rtl_lever>
-  "${FELTGATE_ROOT}/model/sim/backends/rtl_backends.cpp")
-file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/lever_alone/designs.inc"
-  CONTENT "FELTGATE_DESIGN(lever)\n")
+feltgate_program(feltgate_twin run_main.cpp ${run_libraries} feltgate_backends)
+feltgate_program(feltgate_run run_main.cpp ${run_libraries} feltgate_backends core_lever)
+target_sources(feltgate_twin PRIVATE $<TARGET_OBJECTS:feltgate_run_parts>)
+target_sources(feltgate_run PRIVATE $<TARGET_OBJECTS:feltgate_run_parts> $<TARGET_OBJECTS:rtl_lever>)
 if(NOT FELTGATE_TESTS)
   set_target_properties(feltgate_twin feltgate_run PROPERTIES EXCLUDE_FROM_ALL ON)
 endif()
@@ -181,12 +142,12 @@ feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
   feltgate_command_line nlohmann_json::nlohmann_json)
 target_sources(feltgate PRIVATE $<TARGET_OBJECTS:feltgate_run_parts>)
 
-include(presets)
+include(other_designs)
 
 # What `feltgate explore` takes from the build; with synth it makes designs out of tree.
 feltgate_program(feltgate_point_bounds bounds_main.cpp feltgate_bounds nlohmann_json::nlohmann_json)
 add_dependencies(feltgate
-  feltgate_generate feltgate_point_bounds feltgate_explore feltgate_verilated)
+  feltgate_generate feltgate_point_bounds feltgate_explore feltgate_chain feltgate_verilated)
 
 # The host of a board; it needs no simulation, so it is built by itself.
 file(GLOB host_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/commands"
@@ -198,16 +159,16 @@ feltgate_program(feltgate_host
 # Meshes under the pen; feltgate_touch_rtl also has the Verilated cores, a minute more.
 foreach(kind twin rtl)
   set(name feltgate_touch)
-  set(objects $<TARGET_OBJECTS:twin_stylus_law>)
+  set(objects "")
   set(cores "")
   if(kind STREQUAL "rtl")
     set(name feltgate_touch_rtl)
-    set(objects $<TARGET_OBJECTS:preset_stylus_law>)
+    set(objects $<TARGET_OBJECTS:rtl_stylus_law>)
     set(cores core_stylus_law)
   endif()
   feltgate_program(${name}
     "touch_main.cpp;touch/touch_report.cpp;host/session.cpp;host/streaming.cpp"
-    feltgate_command_line feltgate_files feltgate_mesh feltgate_axes_loop feltgate_hostlink ${cores} nlohmann_json::nlohmann_json)
+    feltgate_command_line feltgate_files feltgate_mesh feltgate_axes_loop feltgate_hostlink feltgate_backends ${cores} nlohmann_json::nlohmann_json)
   target_sources(${name} PRIVATE ${objects})
   if(kind STREQUAL "rtl" OR NOT FELTGATE_TESTS)
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
@@ -218,25 +179,22 @@ if(NOT FELTGATE_TESTS)
 endif()
 
 # feltgate_fmu_DESIGN.so, the library in what `feltgate product fmu` writes, of designs with one axis and no engine; with
-# tests those of lever and gimbal_motor are built, the others when asked for. Nothing but its functions is seen from outside: an importer may load two.
+# tests those of lever and gimbal_motor are built, the others when asked for. Nothing but its functions is seen from outside:
+# an importer may load two.
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/fmu.map" CONTENT "{ global: fmi3*; feltgate_fmu_*; local: *; };\n")
-foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_CORE_PRESETS)
-  set(name feltgate_fmu_${design})
-  set(twin $<TARGET_OBJECTS:twin_${design}>)
-  if(design IN_LIST FELTGATE_DESIGNS)
-    set(twin "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp" $<TARGET_OBJECTS:design_${design}>)
+foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_OTHERS)
+  if(design MATCHES "_law$")
+    continue()
   endif()
-  add_library(${name} MODULE "${FELTGATE_ROOT}/model/apps/fmu/fmu.cpp" ${twin})
-  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/${design}_alone/designs.inc"
-    CONTENT "FELTGATE_DESIGN(${design})\n")
+  set(name feltgate_fmu_${design})
+  add_library(${name} MODULE "${FELTGATE_ROOT}/model/apps/fmu/fmu.cpp")
   set_target_properties(${name} PROPERTIES PREFIX "" POSITION_INDEPENDENT_CODE ON EXCLUDE_FROM_ALL ON)
   if(FELTGATE_TESTS AND design MATCHES "^(lever|gimbal_motor)$")
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL OFF)
   endif()
-  target_include_directories(${name} PRIVATE "${PROJECT_BINARY_DIR}/backends/${design}_alone")
   target_compile_definitions(${name} PRIVATE FELTGATE_FMU_DESIGN="${design}")
   target_compile_options(${name} PRIVATE ${FELTGATE_WARNINGS} -O1)
-  target_link_libraries(${name} PRIVATE feltgate_loop feltgate_plant_files feltgate_plant fmt::fmt)
+  target_link_libraries(${name} PRIVATE feltgate_backends feltgate_loop feltgate_plant_files feltgate_plant fmt::fmt)
   target_link_options(${name} PRIVATE "LINKER:--as-needed,--version-script=${PROJECT_BINARY_DIR}/fmu.map")
 endforeach()
 

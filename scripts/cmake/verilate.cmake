@@ -5,7 +5,7 @@
 include_guard(GLOBAL)
 
 # Slots, clocks, addresses and bits, equal in all designs; a block's sources need it beside a package.
-set(FELTGATE_MAP_PACKAGE "${FELTGATE_ROOT}/rtl/generated/feltgate_map_pkg.sv")
+set(FELTGATE_MAP_PACKAGE "${FELTGATE_ROOT}/rtl/generated/map.sv")
 set(FELTGATE_JOIN_SOURCES "${CMAKE_CURRENT_LIST_DIR}/join_sources.cmake")
 set(FELTGATE_INSTRUMENT "${FELTGATE_ROOT}/scripts/rtl_coverage/instrument.py")
 
@@ -43,7 +43,8 @@ set_target_properties(feltgate_verilated_coverage PROPERTIES EXCLUDE_FROM_ALL TR
 # Only the oldest supported version decides which warnings are errors: newer ones learn new warnings.
 execute_process(COMMAND ${VERILATOR_BIN} --version OUTPUT_VARIABLE FELTGATE_VERILATOR_VERSION)
 string(REGEX MATCH "[0-9]+\\.[0-9]+" FELTGATE_VERILATOR_VERSION "${FELTGATE_VERILATOR_VERSION}")
-set(FELTGATE_VERILATOR_WARNINGS -Wall)
+# A block takes whole structs and uses the fields that concern it. Among axes whole structs go around, their bits do not.
+set(FELTGATE_VERILATOR_WARNINGS -Wall -Wno-UNUSEDSIGNAL -Wno-UNOPTFLAT)
 if(NOT FELTGATE_VERILATOR_VERSION VERSION_EQUAL "5.006")
   list(APPEND FELTGATE_VERILATOR_WARNINGS -Wno-fatal)
 endif()
@@ -94,6 +95,7 @@ function(feltgate_verilate target top sources)
     COMMAND ${CMAKE_COMMAND} -E env "VERILATOR_ROOT=${VERILATOR_ROOT}" ${VERILATOR_BIN} ${kind}
             --prefix ${arg_CLASS} --top-module ${top} --Mdir "${directory}"
             --x-initial unique --x-assign unique --output-split 0 ${speed} ${FELTGATE_VERILATOR_WARNINGS}
+            "-I${FELTGATE_ROOT}/rtl/tops"
             ${arg_UNPARSED_ARGUMENTS} ${sources}
     ${instrument}
     COMMAND ${CMAKE_COMMAND} -DDIRECTORY=${directory} -P "${FELTGATE_JOIN_SOURCES}"

@@ -223,11 +223,11 @@ class Choosing:
     def core(self, row):
         """(what, gates) of a design's core."""
         if self.question.device:
-            name = f"{self.report['axes']} axes, registered"
+            name = f"{self.report['axes']} axes"
             return f"core, {name}", self.budget["figures"]["lever"][name]
         if self.question.of_block():
             return "core, its scenes", row.figures
-        alone = self.budget["scene_sets"]["lever"]["setpoint"]
+        alone = self.budget["figures"]["lever_law"]["core without read-back"]
         own = self.own_row.figures
         more = {k: int(row.figures[k]) - int(own[k]) for k in ("lut4_equivalents", "mult18", "bram")}
         return "core, set-point alone", {k: alone[k] + more[k] for k in more}
@@ -244,7 +244,7 @@ class Choosing:
         """All of them, as the JSON has them."""
         rounding = self.rounding()
         plant = choice.plant_part(self.trim, self.largest_nm) if self.trim else None
-        cells = self.budget["figures"]["lever"]["core without read-back, inferred"]
+        cells = self.budget["figures"]["lever"]["core without read-back"]
         cells_per_lut4 = cells["cyclone_cells"] / cells["lut4_equivalents"]
         engine = ("engine", self.budget["figures"]["lever"]["axes_engine"])
         by = "block" if self.question.of_block() else "engine"

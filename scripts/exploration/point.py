@@ -28,7 +28,7 @@ from exploration.design_text import design_text
 ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
 BUILD = Path(os.environ.get("FELTGATE_BUILD", ROOT / "build"))
 SEEDS = (1, 2, 3)
-LIBRARIES = ("explore", "plant_files", "plant", "config", "verilated")
+LIBRARIES = ("explore", "chain", "plant_files", "plant", "config", "verilated")
 OPTIMISE = "-O1"  # measured: -O2 costs as much compiling as it saves running
 BOUNDED = ("torque_nm", "tau_ref_nm", "tau_hat_nm", "velocity_rad_s")
 
@@ -79,11 +79,11 @@ def sources_digest():
     if _sources is None:
         digest = hashlib.sha256(f"{OPTIMISE} {tool_version(compiler())}".encode())
         digest.update(f"{tool_version('verilator')} {synth_tools.version(yosys())}".encode())
-        paths = [*core_rtl(), *ROOT.glob("rtl/core/**/*.sv"), *ROOT.glob("model/**/*.hpp")]
+        paths = [*core_rtl(), *ROOT.glob("model/**/*.hpp")]
         paths += [ROOT / "model/studies/explore/point_main.cpp", Path(__file__)]
         paths += [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
         paths = [p for p in paths if "generated" not in p.parts]
-        paths += [ROOT / "rtl/generated/feltgate_map_pkg.sv"]
+        paths += [ROOT / "rtl/generated/map.sv"]
         paths += [ROOT / "model/include/feltgate/generated" / name for name in ("map.hpp", "causes.hpp")]
         for path in sorted(paths):
             digest.update(path.read_bytes())
@@ -102,7 +102,9 @@ def structure_key(package):
 
 
 def core_rtl():
-    return [ROOT / "rtl" / name for name in synth_measure.core_sources(ROOT)]
+    """The devices, and the module with a port for each pin that C++ sees of them."""
+    names = [*rtl_sources.core_files(ROOT), *rtl_sources.folder_files(ROOT, "options")]
+    return [*(ROOT / "rtl" / name for name in names), ROOT / "model/sim/backends/feltgate_core.sv"]
 
 
 def verilator_root():
@@ -116,7 +118,7 @@ def build_program(generated, folder):
     command = ["verilator", "--cc", "--prefix", "Vpoint", "--top-module", "feltgate_core"]
     command += ["--Mdir", rtl, "-O3", "--x-initial", "unique", "--x-assign", "unique"]
     command += ["--output-split", "0", "-Wno-fatal"]
-    run([*command, generated / "feltgate_pkg.sv", *core_rtl()])
+    run([*command, generated / "cfg.sv", *core_rtl()])
     joined = rtl / "all.cpp"
     names = sorted(p.name for p in rtl.glob("*.cpp"))
     joined.write_text("".join(f'#include "{name}"\n' for name in names), encoding="utf-8")
@@ -148,13 +150,13 @@ def tools_in(folder):
 
 def synthesis_inputs(generated, folder, tools):
     """Copies the sources, writes the wrappers; commands that read the sources."""
-    names = [*rtl_sources.cell_files(ROOT), *synth_measure.core_sources(ROOT)]
-    shutil.copy(generated / "feltgate_pkg.sv", folder)
+    names = rtl_sources.core_files(ROOT)
+    shutil.copy(generated / "cfg.sv", folder)
     for name in names:
         shutil.copy(ROOT / "rtl" / name, folder)
     target = synth_measure.scene_target(ROOT)
-    names = ["feltgate_pkg.sv", *(Path(name).name for name in names)]
-    read = synth_measure.read_commands(names, target)
+    names = ["cfg.sv", *(Path(name).name for name in names)]
+    read = synth_measure.read_commands(names)
     synth_measure.write_tops(tools, "core", target, read)
     return read
 
@@ -182,7 +184,7 @@ class Structure:
     """The folder of one structure; parts are made by whoever comes first, others wait."""
 
     def __init__(self, workdir, generated):
-        package = (generated / "feltgate_pkg.sv").read_text(encoding="utf-8")
+        package = (generated / "cfg.sv").read_text(encoding="utf-8")
         self.generated = generated
         self.key = structure_key(package)
         self.folder = Path(workdir) / "structures" / self.key

@@ -20,9 +20,13 @@ from command_line import Refused
 # Keys that a design may leave out, with what it then means.
 OPTIONAL = {
     "velocity.gain": None,
-    "formats.coefficient_bits": 17,
     "formats.rounding": "half_up",
-    "fabric.multipliers": "shared",
+}
+# Keys that designs had, and what is so in all of them now.
+GONE = {
+    "formats.coefficient_bits": "coefficients have 17 bits",
+    "fabric.multipliers": "each block has a multiplier of its own",
+    "commutation.modulation": "three phases are driven by space vectors",
 }
 # A register carries these: points that differ in nothing else can share one built structure.
 CARRIED = ("velocity.cutoff_rad_s", "observer.cutoff_rad_s")
@@ -147,6 +151,8 @@ class Reader:
             yield self.point(base, design, changes, number)
 
     def check_key(self, design, key, number):
+        if key in GONE:
+            self.fail(key, f"no design has {key} any more: {GONE[key]}", "leave it out", number)
         if key not in design and key not in OPTIONAL:
             near = difflib.get_close_matches(key, [*design, *OPTIONAL], 1)
             mend = f"did you mean {near[0]}" if near else "docs/designs.md lists the keys"

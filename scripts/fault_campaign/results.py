@@ -133,14 +133,12 @@ def block_of(fault, blocks):
     """The block that a register is in: the deepest instance that is named after one."""
     name = fault["register"]
     if name.startswith("parameter "):
-        return "registers"
+        return "params"
     if name == "velocity line":
-        return "velocity_n"
+        return "travel_window"
     found = "feltgate_core"
     for instance in re.findall(r"u_(\w+?)\.", name):
-        for block in (instance, f"scene_{instance}"):
-            if block in blocks:
-                found = block
+        found = instance if instance in blocks else found
     return found
 
 

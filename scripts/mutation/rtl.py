@@ -21,7 +21,7 @@ def programs(build):
 
 
 def mutants_of(program):
-    path = program.with_suffix(".netlist") / "mutants.json"
+    path = program.with_name(f"{program.name}.netlist") / "mutants.json"
     if not path.exists():
         raise MutateError(f"{path} is missing; build the target {program.name}")
     return [Mutant(**entry) for entry in json.loads(path.read_text(encoding="utf-8"))]

@@ -36,7 +36,8 @@ def parse(root, names, dropped):
     language = twin_places.cpp_language(command_line.build_folder() / "venv-mutate")
     headers, first = [], 1
     for name in names:
-        text = (root / twin_programs.HEADERS / f"{name}.hpp").read_text(encoding="utf-8")
+        path = root / twin_programs.HEADERS / twin_programs.header_of(root, name)
+        text = path.read_text(encoding="utf-8")
         headers.append(twin_source.Header(name, text, first, language, dropped.get(name, ())))
         first += len(headers[-1].mutants)
     return headers
@@ -58,10 +59,10 @@ def folder_of(build, names):
     return build / "mutants/twin" / ("-".join(names[:3]) + more)
 
 
-def write_headers(headers, folder):
+def write_headers(root, headers, folder):
     shutil.rmtree(folder / "include", ignore_errors=True)
     for header in headers:
-        path = folder / "include/feltgate" / f"{header.name}.hpp"
+        path = folder / "include/feltgate" / twin_programs.header_of(root, header.name)
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(header.result, encoding="utf-8")
 
@@ -69,7 +70,7 @@ def write_headers(headers, folder):
 def refused(headers, folder, output):
     """{(header, mutant)} that a compiler's message is about: those of its line, the risky ones first."""
     # A compiler cache may shorten the paths.
-    path = rf"mutants/twin/{re.escape(folder.name)}/include/feltgate/(\w+)\.hpp:(\d+):\d+:"
+    path = rf"mutants/twin/{re.escape(folder.name)}/include/feltgate/(?:axis/)?(\w+)\.hpp:(\d+):\d+:"
     places = re.findall(rf"{path} +error", output) or re.findall(rf"{path} +required from", output)
     bad = set()
     for name, line in set(places):
@@ -93,7 +94,7 @@ def make(root, build, of, folder, jobs):
     dropped = json.loads(memory.read_text(encoding="utf-8")) if memory.exists() else {}
     for attempt in range(ATTEMPTS):
         headers = parse(root, of, dropped)
-        write_headers(headers, folder)
+        write_headers(root, headers, folder)
         count = sum(len(h.mutants) for h in headers)
         say("mutate", f"compiling {count} mutants of {len(headers)} headers, attempt {attempt + 1}")
         maker = twin_programs.Maker(build, root, folder, list(of), count + 1, jobs)

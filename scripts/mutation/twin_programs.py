@@ -15,6 +15,14 @@ from .runs import Case, MutateError
 
 HEADERS = "model/include/feltgate"
 SUPPORT = "testbench/campaigns/mutate/twin"
+
+
+def header_of(root, name):
+    """The path of NAME.hpp below HEADERS: the axis' own comes first."""
+    of_axis = f"axis/{name}.hpp"
+    return of_axis if (root / HEADERS / of_axis).exists() else f"{name}.hpp"
+
+
 # Warnings and a code that is not quite C++ are no matter; every error is.
 OPTIONS = ["-O2", "-w", "-Wno-narrowing", "-fpermissive", "-fmax-errors=0"]
 
@@ -55,7 +63,7 @@ class Maker:
 
     def __init__(self, build, root, folder, headers, count, jobs):
         self.build, self.root, self.folder, self.jobs = build, root, folder, jobs
-        self.headers = {os.path.realpath(root / HEADERS / f"{h}.hpp") for h in headers}
+        self.headers = {os.path.realpath(root / HEADERS / header_of(root, h)) for h in headers}
         self.count, self.objects, self.crew = count, {}, Crew()
 
     def call(self, command):

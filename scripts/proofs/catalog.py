@@ -76,9 +76,11 @@ def wrapper_text(root, path):
 
 
 def defect_path(root, block, name):
-    """NAME is a patch of the block, or BLOCK/NAME of another."""
+    """NAME is a patch beside the proof or of the block, whose folder this is, or BLOCK/NAME of another."""
     where, _, stem = name.rpartition("/")
-    return rtl_sources.tests_of(root, where or block) / "defects.diff" / stem
+    folder = rtl_sources.tests_of(root, where) if where else block
+    beside = folder / "proofs" / "defects.diff"
+    return (beside if stem in sum(patches.names(beside), []) else folder / "defects.diff") / stem
 
 
 def read_proof(root, block, path, table):
@@ -103,7 +105,7 @@ def read_proof(root, block, path, table):
         for key in ("says", "defect"):
             if key not in entry:
                 raise wrong(f"property '{label}' without '{key}'")
-        defect = defect_path(root, block, entry["defect"])
+        defect = defect_path(root, path.parents[1], entry["defect"])
         if defect.name not in sum(patches.names(defect.parent), []):
             raise wrong(f"property '{label}': no defect {defect.relative_to(root)}")
         properties.append(Property(label, entry["says"], defect, entry.get("from_any", False)))

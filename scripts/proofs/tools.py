@@ -22,6 +22,10 @@ TIME_LIMIT_S = 1800
 # z3 without --unroll takes minutes where it takes a second with it.
 SMTBMC = ("-s", "z3", "--unroll", "--noprogress")
 
+# Below rtl/, in reading order.
+PACKAGES = ("generated/{}/cfg.sv", "generated/map.sv", "generated/feltgate_link_pkg.sv",
+            "generated/feltgate_engine_pkg.sv", "core/fx.sv")
+
 
 class Broken(Exception):
     """A tool that is missing or has failed: no verdict on the property."""
@@ -100,18 +104,21 @@ def copy_sources(root, proof, design, patch, folder):
     if strange:
         raise Broken(f"{proof.key}: cut {', '.join(strange)}, which it does not read")
     design, constants, _ = split_design(design)
-    package = f"rtl/generated/{design}/feltgate_pkg.sv"
-    paths = [package, "rtl/generated/feltgate_map_pkg.sv"]
-    for below, name in rtl_sources.PACKAGES.items():
-        if any(known[n].startswith(f"{below}/") for n in names):
-            paths.append(f"rtl/generated/{name}.sv")
-    paths += [f"rtl/{known[name]}" for name in names]
+    paths = [f"rtl/{known[name]}" for name in names]
+    texts = [text, *((root / path).read_text(encoding="utf-8") for path in paths)]
+    for package in reversed(PACKAGES):  # those that are named
+        path = f"rtl/{package.format(design)}"
+        if any(f"{Path(path).stem}::" in named for named in texts):
+            paths.insert(0, path)
+            texts.append((root / path).read_text(encoding="utf-8"))
+    if any('`include "device.svh"' in named for named in texts):
+        paths.insert(0, f"rtl/{rtl_sources.INCLUDE}")
     changed = {str(k): v for k, v in patches.patched(patch, root).items()} if patch else {}
     if not changed.keys() <= set(paths):
         raise Broken(f"{patch}: changes {', '.join(changed)}, which {proof.key} does not read")
     for path in paths:
         source = changed.get(path) or (root / path).read_text(encoding="utf-8")
-        for constant in constants if path == package else ():
+        for constant in constants if f"generated/{design}/" in path else ():
             name, value = constant.split("=")
             source = re.sub(rf"(localparam int {name} = )\d+;", rf"\g<1>{value};", source)
         if Path(path).stem in proof.cut:

@@ -25,10 +25,9 @@ ENGINE_DESIGN = "lever_law"  # has an engine for laws, and a program of its own
 
 
 @lru_cache
-def presets():
-    """Designs whose core is in a program of its own."""
-    lines = (ROOT / "rtl/designs/presets.txt").read_text(encoding="utf-8").splitlines()
-    return {line for line in lines if line and not line.startswith("#")}
+def with_own_programs():
+    """Designs whose RTL is in a program of its own."""
+    return {path.stem for path in (ROOT / "rtl/designs").glob("*.toml")} - {"lever", "paper"}
 
 
 def build_folder():
@@ -39,7 +38,7 @@ def program_path(design=""):
     """Where the program of a design lies once it is built; of none, the program with every
     command."""
     path = Path(os.environ.get("FELTGATE_PROGRAM") or build_folder() / "feltgate")
-    if path.name == "feltgate" and design in presets():
+    if path.name == "feltgate" and design in with_own_programs():
         return path.with_name(f"feltgate_{design}")
     if path.name == "feltgate" and design == "lever":
         small = path.with_name("feltgate_run")

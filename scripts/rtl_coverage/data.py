@@ -18,6 +18,7 @@ LINE = re.compile(r"^C '(.*)' (\d+)$")
 PAGES = {"line": "line", "branch": "branch", "toggle": "toggle", "user": "cover"}
 KINDS = tuple(PAGES.values())
 NEEDED = {"toggle": 2}  # a bit must come back, or rise in two models; of all else once is enough
+CORE = "feltgate_core"  # the program that runs the devices
 POINTS = "testbench/campaigns/coverage/points_"  # the files of modules BLOCK_cover
 
 
@@ -69,6 +70,7 @@ def point_of(root, entry):
         return None
     name = entry["o"] + (generated_index(entry["h"]) if is_points else "")
     block = rtl_sources.measured_as(module.partition("_cover")[0] if is_points else path.stem)
+    block = CORE if block == rtl_sources.CORE else block
     return Point(block, kind, file, int(entry["l"]), int(entry["n"]), name)
 
 

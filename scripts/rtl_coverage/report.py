@@ -110,7 +110,7 @@ def figures(row):
 
 
 def per_block(report):
-    """The row of each block in docs/blocks.md; the core's own tests are timed in its own row."""
+    """The row of each block; the core's own tests are timed in its own row."""
     found = {}
     for row in [*report.rows, *([report.core] if report.core else [])]:
         found[row.block] = {kind: pair for kind, pair in figures(row).items() if pair[1]}

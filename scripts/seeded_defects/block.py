@@ -3,6 +3,7 @@
 """One SystemVerilog module with a block's name and ports, and any of the block's defects."""
 
 import re
+import subprocess
 
 from .patches import NONE, ROOT, DefectError, patched
 
@@ -26,6 +27,12 @@ def closing(text, at):
         if depth == 0:
             return k
     raise DefectError("a parenthesis of the module's head does not close")
+
+
+def expanded(path):
+    """The text of a source whose ports are macros of rtl/tops/device.svh, those of the lever."""
+    command = ["verilator", "-E", "-P", f"-I{ROOT / 'rtl/tops'}", str(path)]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
 class Head:
@@ -136,7 +143,8 @@ def block_of_defects(block, patches, sources, root=ROOT):
     where = modules_of(texts)
     if block not in where:
         raise DefectError(f"no module {block} in {', '.join(map(str, sources))}")
-    head = Head(block, texts[where[block]])
+    source = texts[where[block]]
+    head = Head(block, expanded(root / where[block]) if "`include" in source else source)
     copies = {NONE: renamed_copy(texts, {}, NONE, block)}
     for patch in sorted(patches):
         change = patched(patch, root)

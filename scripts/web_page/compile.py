@@ -29,12 +29,12 @@ HEADERS = {
 FOLDERS = ("apps/page", "sim/plant", "files/toml", "design", "law", "sim/law_loop")
 FILES = (
     "sim/axes_loop/plane_host.cpp",
-    "sim/backends/built_in_designs.cpp",
     "sim/backends/backend.cpp",
     "sim/loop/ensemble.cpp",
     "sim/loop/backend_choice.cpp",
     "sim/loop/run_host.cpp",
     "sim/loop/step_plan.cpp",
+    "sim/reference/chain.cpp",
     "sim/touch/edges.cpp",
     "sim/touch/glb.cpp",
     "sim/touch/mesh.cpp",
@@ -42,10 +42,12 @@ FILES = (
     "studies/shape/rhombus.cpp",
     "studies/stability/linear_loop.cpp",
 )
+# Of the devices whose laws the page has as images.
+LAW_DESIGNS = ("stylus_law", "gimbal_law")
 PLANTS = ("p24", "p48", "linear", "gimbal_motor")
-# A hand read from a file needs recordings, which the page has none of; nobody asks it for C++ or
-# proofs.
-LEFT_OUT = re.compile(r"hand_file|cpp(_.*)?|gappa(_.*)?|.*_main")
+# A hand read from a file needs recordings, which the page has none of; its designs are files; nobody asks
+# it for proofs.
+LEFT_OUT = re.compile(r"hand_file|shipped|cpp(_.*)?|gappa(_.*)?|.*_main")
 
 
 class CompileError(Exception):
@@ -59,25 +61,6 @@ def sources(root):
     return [p for p in found if not LEFT_OUT.fullmatch(p.stem)]
 
 
-def type_of(design):
-    return "".join(word.capitalize() for word in design.replace("-", "_").split("_"))
-
-
-def engines(root, designs, folder):
-    """Writes what CMake writes for a native build: an engine a design, and their list."""
-    parts = (root / "scripts/cmake/design.cpp.in").read_text(encoding="utf-8")
-    template = re.search(r"^== backends\n(.*?)^== ", parts, re.M | re.S).group(1)
-    written = []
-    for design in designs:
-        path = folder / f"{design}_backends.cpp"
-        text = template.replace("@design@", design).replace("@type@", type_of(design))
-        path.write_text(text, encoding="utf-8")
-        written.append(path)
-    lines = "".join(f"FELTGATE_DESIGN({design})\n" for design in designs)
-    (folder / "designs.inc").write_text(lines, encoding="utf-8")
-    return written
-
-
 def run(words):
     # Debian's Emscripten finds its optimiser's parser only so when node is not Debian's.
     environment = dict(os.environ, NODE_PATH="/usr/share/nodejs")
@@ -87,7 +70,7 @@ def run(words):
 
 
 def compile_core(root, designs, folder, progress=None):
-    """(JavaScript, WebAssembly) of the core of these designs, which must have generated files.
+    """(JavaScript, WebAssembly) of the core of these designs.
 
     `folder` is written; `progress` is called with a number of steps done and their total.
     """
@@ -101,7 +84,7 @@ def compile_core(root, designs, folder, progress=None):
     gltf = folder / "tiny_gltf.cpp"
     lines = "#include <fstream>", "#define TINYGLTF_IMPLEMENTATION", "#include <tiny_gltf.h>", ""
     gltf.write_text("\n".join(lines), encoding="utf-8")
-    jobs = [gltf, *engines(root, designs, folder), *sources(root)]
+    jobs = [gltf, *sources(root)]
     paths = ["-I", root, "-I", root / "model", "-I", root / "model/include", "-I", folder]
     paths += ["-isystem", include]
 
@@ -117,7 +100,10 @@ def compile_core(root, designs, folder, progress=None):
             if progress:
                 progress(done, len(jobs) + 1)
     data = {root / "rtl/registers.toml": "/rtl/registers.toml"}
-    for design in designs:
+    names = folder / "names.txt"
+    names.write_text("\n".join(designs), encoding="utf-8")
+    data[names] = "/designs/names.txt"
+    for design in [*designs, *LAW_DESIGNS]:
         data[root / f"rtl/designs/{design}.toml"] = f"/designs/{design}.toml"
     for plant in PLANTS:
         data[root / f"vectors/plants/{plant}.toml"] = f"/plants/{plant}.toml"

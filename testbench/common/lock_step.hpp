@@ -21,6 +21,14 @@ namespace feltgate::test {
 
 namespace detail {
 
+/// Whether a reset of the twin depends on the inputs.
+template <class Twin, class In, class = void>
+struct TakesInReset : std::false_type {};
+template <class Twin, class In>
+struct TakesInReset<Twin, In,
+                    std::void_t<decltype(std::declval<Twin&>().reset(std::declval<const In&>()))>>
+    : std::true_type {};
+
 template <class Twin, class = void>
 struct HasPeek : std::false_type {};
 template <class Twin>
@@ -138,7 +146,13 @@ class LockStep {
       Adapter::drive(*rtl, in);
       rtl->rst_ni = in_reset ? 0 : 1;
       rtl.low();
-      if (in_reset) twin.reset();
+      if (in_reset) {
+        if constexpr (detail::TakesInReset<Twin, In>::value) {
+          twin.reset(in);
+        } else {
+          twin.reset();
+        }
+      }
       if constexpr (kPeek) {
         Adapter::compare(check, *rtl, twin.peek(in));
       } else if (in_reset) {

@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // For the adapters of lock_step.hpp: fields of the twin that have their port's name.
-//   FELTGATE_DRIVE(rtl, in, a, b)            rtl.a_i = in.a; rtl.b_i = in.b;
-//   FELTGATE_STROBES(rtl, wave, at, T, a, b) rtl.at_a_i = bit Map::T::a of the wave; ...
-//   FELTGATE_COMPARE(check, rtl, out, a, b)  check("a", rtl.a_o, out.a); check("b", ...);
+//   FELTGATE_DRIVE(rtl, in, a, b)         rtl.a_i = in.a; rtl.b_i = in.b;
+//   FELTGATE_COMPARE(check, rtl, out, a, b) check("a", rtl.a_o, out.a); check("b", ...);
 // A field of another name or with a sign of its own is written out.
 #pragma once
 
@@ -14,20 +13,10 @@
 #include <boost/preprocessor/tuple/elem.hpp>
 #include <boost/preprocessor/variadic/to_seq.hpp>
 
-#include "feltgate/generated/map.hpp"
-
 #define FELTGATE_DRIVE(rtl, in, ...) \
   BOOST_PP_SEQ_FOR_EACH(FELTGATE_DRIVE_ONE, (rtl, in), BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))
 #define FELTGATE_DRIVE_ONE(_, objects, name) \
   BOOST_PP_TUPLE_ELEM(0, objects).BOOST_PP_CAT(name, _i) = BOOST_PP_TUPLE_ELEM(1, objects).name;
-
-#define FELTGATE_STROBES(rtl, wave, prefix, group, ...)                                 \
-  BOOST_PP_SEQ_FOR_EACH(FELTGATE_STROBE, (rtl, (wave), prefix, ::feltgate::Map::group), \
-                        BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))
-#define FELTGATE_STROBE(n, objects, name)                                                       \
-  BOOST_PP_TUPLE_ELEM(0, objects)                                                               \
-      .BOOST_PP_CAT(BOOST_PP_TUPLE_ELEM(2, objects), BOOST_PP_CAT(_, BOOST_PP_CAT(name, _i))) = \
-      (BOOST_PP_TUPLE_ELEM(1, objects) >> BOOST_PP_TUPLE_ELEM(3, objects)::name) & 1U;
 
 #define FELTGATE_COMPARE(check, rtl, out, ...)                   \
   BOOST_PP_SEQ_FOR_EACH(FELTGATE_COMPARE_ONE, (check, rtl, out), \

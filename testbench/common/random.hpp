@@ -24,6 +24,11 @@ class Random : public SplitMix64 {
   }
   /// True once in n draws on average.
   constexpr bool one_in(std::uint64_t n) { return below(n) == 0; }
+  /// One element of a list.
+  template <class List>
+  const typename List::value_type& pick(const List& list) {
+    return list[below(list.size())];
+  }
   constexpr bool coin() { return (bits() >> 63) != 0; }
 };
 

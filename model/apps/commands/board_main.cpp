@@ -58,7 +58,6 @@ std::unique_ptr<Board> make_board(Setup& setup, const std::string& kind) {
   BoardOptions options;
   options.baud = setup.baud;
   auto core = make_core(setup.design, kind, options);
-  check_design(core->design());
   if (setup.hand.empty()) setup.hand = default_hand(setup.design, core->axes());
   if (core->axes() > 1) {
     if (!setup.plant.empty()) {
@@ -204,11 +203,7 @@ docs/host.md teaches.)");
          checks::no_folder());
   int exit_code = exit_ok;
   app.callback([&] {
-    // Names a design that is none; make_core() names the program of one that is not in this.
-    const std::string file = repository() + "/rtl/designs/" + a.setup.design + ".toml";
-    if (a.replay.empty() && !std::filesystem::exists(file)) {
-      a.setup.design = built_design(a.setup.design);
-    }
+    if (a.replay.empty()) a.setup.design = built_design(a.setup.design);
     exit_code = run(a);
   });
   return run_command_line(app, argc, argv, exit_code);

@@ -93,7 +93,7 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code)
   files::end_on_signals();
   try {
     refuse_empty_words(argc, argv);
-    check_design_files();
+    use_design_files();
     app.parse(argc, argv);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
     complain(app, "stdout could not be written whole; is the disk full?");

@@ -17,7 +17,7 @@
 #include <stdexcept>
 
 #include "design/design.hpp"
-#include "design/generate.hpp"
+#include "design/info.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/program.hpp"
 #include "sim/backends/axes_cores.hpp"
@@ -33,21 +33,12 @@ double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-bool is_path(const std::string& name) {
-  return name.find('/') != std::string::npos || fs::path(name).extension() == ".toml";
-}
-
 void refuse_folder(const std::string& name, const std::string& names) {
   std::error_code ignored;
   if (fs::is_directory(name, ignored)) {
     throw std::invalid_argument(
         fmt::format("{}: is a folder; give a file in it, or a name in {}", name, names));
   }
-}
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 [[noreturn]] void refuse_name(const std::string& name, const std::string& folder,
@@ -108,7 +99,7 @@ std::set<std::string> names_in(const std::string& folder, const std::string& suf
 }
 
 std::string find_file(const std::string& name, const std::string& folder) {
-  if (is_path(name)) {
+  if (design::is_path(name)) {
     std::error_code error;
     const fs::file_status status = fs::status(name, error);
     refuse_folder(name, folder);
@@ -124,7 +115,7 @@ std::string find_file(const std::string& name, const std::string& folder) {
 }
 
 std::string find_law(const std::string& name) {
-  const bool path_like = name.find_first_not_of('.') == std::string::npos || is_path(name);
+  const bool path_like = name.find_first_not_of('.') == std::string::npos || design::is_path(name);
   if (path_like) refuse_folder(name, "rtl/laws");
   if (name.find('/') != std::string::npos || fs::path(name).extension() == ".law") return name;
   const fs::path path = fs::path(repository()) / "rtl/laws" / (name + ".law");
@@ -137,40 +128,19 @@ design::Elaborated elaborated_design(const std::string& name) {
                            design::read_registers(repository() + "/rtl/registers.toml"));
 }
 
-void check_design_files() {
-  check_designs([](const DesignInfo& design) {
-    const fs::path file =
-        fs::path(repository()) / "rtl/designs" / (design.name + std::string(".toml"));
-    if (!fs::exists(file)) return;
-    design::require_current(
-        elaborated_design(design.name), design.file_sum,
-        "run ./feltgate generate, then this command by way of ./feltgate, which builds it anew");
-  });
+void use_design_files() {
+  if (!fs::exists(fs::path(repository()) / "rtl/designs")) return;  // those of the build, then
+  set_design_source(
+      {[](const std::string& name) { return design::info_of(elaborated_design(name)); },
+       [] {
+         const std::set<std::string> names = names_in("rtl/designs");
+         return std::vector<std::string>(names.begin(), names.end());
+       }});
 }
 
 std::string built_design(const std::string& given) {
-  const std::vector<std::string> built = design_names();
-  if (std::find(built.begin(), built.end(), given) != built.end()) return given;
-  const std::set<std::string> names = names_in("rtl/designs");
-  if (!is_path(given)) {
-    if (find_axes_design(given) != nullptr) return given;
-    if (names.count(given) > 0) {
-      (void)design_named(given);  // a preset: this program has it, or that says how it is built
-      return given;
-    }
-    throw std::invalid_argument(fmt::format("design \"{}\" is unknown; {}choose one of {}", given,
-                                            config::did_you_mean(given, names),
-                                            fmt::join(names, ", ")));
-  }
-  const std::string file = find_file(given, "rtl/designs");
-  const std::string name = design::read_design(file).name;
-  const fs::path ours = fs::path(repository()) / "rtl/designs" / (name + ".toml");
-  const bool known = std::find(built.begin(), built.end(), name) != built.end();
-  if (known && text_of(file) == text_of(ours)) return name;
-  throw std::invalid_argument(
-      fmt::format("{}: a design runs once it is built in; copy it to rtl/designs/{}.toml{}, run "
-                  "`./feltgate generate`, then give --design {}",
-                  given, name, known ? " under a name of its own" : "", name));
+  (void)design_named(given);  // names the choices where it is none
+  return given;
 }
 
 Progress::Progress(std::string label, bool quiet)

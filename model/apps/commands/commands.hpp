@@ -67,16 +67,15 @@ int draw_from_json(const std::string& name, const std::string& json, const std::
 /// The design point of this name, elaborated against the register map.
 design::Elaborated elaborated_design(const std::string& name);
 
-/// Compares each design that this program uses with its file in rtl/designs, as check_designs()
-/// has it; one whose file is not there is left alone.
-void check_design_files();
+/// design_named() takes designs from rtl/designs, or from the paths of their files.
+void use_design_files();
 
 /// Help of a --design that is empty where the scene decides.
 inline constexpr const char* design_help =
     "design point in rtl/designs; default: lever, of a law lever_law, of a device its own";
 
-/// Name of the built-in design that `given` names, or whose file it is. For another design it
-/// throws std::invalid_argument, which explains how to build that design in.
+/// `given`, where it is the name of a design or the path of its file. Errors:
+/// std::invalid_argument, which names the choices.
 std::string built_design(const std::string& given);
 
 /// Adds an option. `type`: what its value is called in the help; empty: by the type of `value`.

@@ -18,8 +18,8 @@
 
 #include "design/engine_map.hpp"
 #include "design/generate.hpp"
+#include "design/generate_cfg.hpp"
 #include "design/host_words.hpp"
-#include "design/schedule.hpp"
 #include "files/toml/toml_reader.hpp"
 
 namespace fs = std::filesystem;
@@ -66,15 +66,16 @@ bool update_host_files(const fs::path& folder, const feltgate::design::Elaborate
 constexpr const char* usage =
     "usage: feltgate generate [--check [DESIGN...]]\n"
     "       feltgate generate --design FILE -o DIR [--allow-coarse]\n"
-    "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the SystemVerilog "
-    "packages in\n"
-    "rtl/generated, the C++ headers in model/include/feltgate/generated, docs/registers.md, and\n"
-    "for lever the register map as C header, SystemRDL and CSV.\n"
+    "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the map for RTL and C++,\n"
+    "docs/registers.md, the packages of lever, paper and gimbal_current in rtl/generated (a build\n"
+    "makes those of the others), and for lever a C++ header in model/include/feltgate/generated "
+    "and\n"
+    "the register map as C header, SystemRDL and CSV.\n"
     "--check only compares, all or what follows from these designs; exit code 1 when a file is "
     "stale.\n"
-    "With --design one design, which may lie anywhere: DIR/feltgate_pkg.sv, DIR/NAME.hpp and "
-    "DIR/parameters.mem,\n"
-    "the first contents of the parameter RAM for $readmemh, and DIR/values.txt,\n"
+    "With --design one design, which may lie anywhere: DIR/cfg.sv, DIR/NAME.hpp,\n"
+    "DIR/parameters.mem, the first contents of the parameter RAM for $readmemh, and "
+    "DIR/values.txt,\n"
     "a line per parameter: name, address, integer, exact value; and the register map for hosts:\n"
     "DIR/feltgate.h with DIR/feltgate_map.h (C), DIR/feltgate.rdl (SystemRDL), DIR/csr.csv (as of\n"
     "LiteX). --allow-coarse lets a resolution pass that is coarser than a design for use must "
@@ -116,11 +117,6 @@ bool parse(int argc, char** argv, Options* o) {
           !(o->allow_coarse && o->design.empty()) && (o->names.empty() || o->check_only));
 }
 
-feltgate::design::Schedule read_schedule(const Options& o,
-                                         const feltgate::design::RegisterMap& registers) {
-  return feltgate::design::read_schedule((o.root / "rtl/schedule.toml").string(), registers);
-}
-
 feltgate::design::EngineDescription read_engine(const Options& o) {
   return feltgate::design::read_engine((o.root / "rtl/engine/engine.toml").string());
 }
@@ -140,8 +136,7 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
   auto design = feltgate::design::read_design(o.design.string());
   design.allow_coarse = o.allow_coarse;
   const auto e = elaborate(design, registers);
-  check_tick(e.design, read_schedule(o, registers));
-  update(o.output / "feltgate_pkg.sv", systemverilog_package(e), false);
+  update(o.output / "cfg.sv", cfg_package(e), false);
   update(o.output / (e.design.name + ".hpp"), cpp_header(e), false);
   update(o.output / "parameters.mem", memory_text(e), false);
   update(o.output / "values.txt", values_text(e), false);
@@ -153,11 +148,14 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
 bool update_design(const Options& o, const feltgate::design::Elaborated& e) {
   const std::string& name = e.design.name;
   const fs::path folder = o.root / "rtl/generated" / name;
-  bool stale = update(folder / "feltgate_pkg.sv", systemverilog_package(e), o.check_only);
-  stale |= update(folder / "parameters.mem", memory_text(e), o.check_only);
-  stale |= update(o.root / "model/include/feltgate/generated" / (name + ".hpp"), cpp_header(e),
-                  o.check_only);
+  bool stale = false;
+  if (name == "lever" || name == "paper" || name == "gimbal_current") {  // others': at build time
+    stale |= update(folder / "cfg.sv", cfg_package(e), o.check_only);
+    stale |= update(folder / "parameters.mem", memory_text(e), o.check_only);
+  }
   if (name == "lever") {  // the others' files for hosts are written on request
+    stale |=
+        update(o.root / "model/include/feltgate/generated/lever.hpp", cpp_header(e), o.check_only);
     stale |= update_host_files(folder, e, o.check_only);
     stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);
     stale |= update(o.root / "rtl/generated/feltgate_map.h", c_map_header(e), o.check_only);
@@ -182,11 +180,9 @@ bool check_named(const Options& o, const feltgate::design::RegisterMap& register
 
 /// Whether a file was stale.
 bool generate_all(const Options& o, const feltgate::design::RegisterMap& registers) {
-  const auto schedule = read_schedule(o, registers);
   const fs::path headers = o.root / "model/include/feltgate/generated";
-  bool stale = update(o.root / "rtl/generated/feltgate_map_pkg.sv",
-                      map_package(registers, schedule), o.check_only);
-  stale |= update(headers / "map.hpp", map_header(registers, schedule), o.check_only);
+  bool stale = update(o.root / "rtl/generated/map.sv", map_package(registers), o.check_only);
+  stale |= update(headers / "map.hpp", map_header(registers), o.check_only);
   stale |=
       update(o.root / "rtl/generated/feltgate_link_pkg.sv", link_package(registers), o.check_only);
   stale |= update(headers / "link.hpp", link_header(registers), o.check_only);
@@ -196,11 +192,9 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
   stale |= update(headers / "engine.hpp", engine_header(engine), o.check_only);
   stale |= update(o.root / "docs/engine-isa.md", engine_page(engine), o.check_only);
   stale |= update(headers / "causes.hpp", causes_header(registers), o.check_only);
-  stale |= update(headers / "reader.hpp", reader_header(registers), o.check_only);
   for (const auto& entry : fs::directory_iterator(o.root / "rtl/designs")) {
     if (entry.path().extension() != ".toml") continue;
     const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);
-    check_tick(e.design, schedule);
     stale |= update_design(o, e);
   }
   return stale;

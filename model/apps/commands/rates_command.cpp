@@ -59,11 +59,6 @@ std::string law_design_of(const Scenario& s, const std::string& asked) {
   return asked.empty() || s.scene != "law" ? rates::law_design : asked;
 }
 
-/// The design of the device; this program may lack it.
-const AxesDesignMakers* made_for(const AxesScene& scene) {
-  return find_axes_design(own_design(scene));
-}
-
 /// A scene that names a device.
 Wanted wanted_device(const std::string& path, const RatesArguments& a, files::Outputs& outputs) {
   if (!a.plant.empty() || !a.design.empty() || !a.beside.empty()) {
@@ -83,14 +78,11 @@ Wanted wanted_device(const std::string& path, const RatesArguments& a, files::Ou
   }
   rates::require_one_law(s);
   w.law = {law_file(s), ""};
-  // If the design is missing, measure() reports it.
-  if (const AxesDesignMakers* made = made_for(*w.device)) {
-    const DesignInfo design = made->info();
-    const auto law = make_axes_law(w.law.path, design, axes_of(*w.device));
-    resolve_amounts(w.device->scenario, design, law.get());
-    check_asked(s, design, law.get());
-    if (w.device->plane) PlaneHost::check(*w.device->plane, path, *law);
-  }
+  const DesignInfo& design = design_named(own_design(*w.device));
+  const auto law = make_axes_law(w.law.path, design, axes_of(*w.device));
+  resolve_amounts(w.device->scenario, design, law.get());
+  check_asked(s, design, law.get());
+  if (w.device->plane) PlaneHost::check(*w.device->plane, path, *law);
   for (const std::string& read : {path, w.device->device_path, w.law.path}) outputs.reads(read);
   return w;
 }
@@ -134,10 +126,7 @@ design::Elaborated with_registers(design::Elaborated e, const Scenario& scene) {
 
 rates::Report measured(const Wanted& w, const rates::Options& options) {
   if (w.device) {
-    // If the design is missing, measure() reports it.
-    const char* other = rates::law_design;
-    const std::string design = made_for(*w.device) ? own_design(*w.device) : other;
-    return rates::measure(*w.device, w.law, elaborated_design(design), options);
+    return rates::measure(*w.device, w.law, elaborated_design(own_design(*w.device)), options);
   }
   const std::string design = law_design_of(w.scene, options.design);
   const auto e = with_registers(elaborated_design(design), w.scene);

@@ -137,20 +137,20 @@ void write_row(std::FILE* to, const std::vector<double>& row) {
   std::fwrite(line.data(), 1, line.size(), to);
 }
 
-int run_axes_scene(const std::string& path, const RunArguments& a) {
+int run_axes_scene(const std::string& path, const RunArguments& given) {
+  RunArguments a = given;
   AxesScene scene = device_scene(path);
+  if (a.design.empty()) a.design = own_design(scene);
   if (a.columns) {
     fmt::print("{}\n", fmt::join(axes_columns(scene), "\n"));
     return exit_ok;
   }
-  const AxesDesignMakers* made = find_axes_design(a.design);
-  if (made == nullptr) {
+  const DesignInfo& design = design_named(a.design);
+  if (design.axes != static_cast<int>(axes_of(scene))) {
     throw std::invalid_argument(
-        fmt::format("{}: device {} has {} axes, and this program's design {} one; ./feltgate run "
-                    "builds the device's own, or name it: --design {}",
-                    path, device_of(scene), axes_of(scene), a.design, own_design(scene)));
+        fmt::format("{}: device {} has {} axes, and design {} {}; leave --design out for {}", path,
+                    device_of(scene), axes_of(scene), a.design, design.axes, own_design(scene)));
   }
-  const DesignInfo design = made->info();
   const std::unique_ptr<SceneLaw> law = law_of(scene, design);
   resolve_amounts(scene.scenario, design, law.get());
   apply_settings(a.set, design, law.get(), scene.scenario);

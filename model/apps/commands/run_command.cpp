@@ -147,7 +147,7 @@ void write_states(files::OutputFile& to, const SceneLaw& law, RunOptions& option
 
 /// The design of --design, else that for which the scene is made.
 std::string design_of(const RunArguments& a, const Scenario& s) {
-  return built_design(!a.design.empty() ? a.design : s.law.empty() ? own_design(s) : "lever");
+  return built_design(!a.design.empty() ? a.design : own_design(s));
 }
 
 /// What a reader of the scene may expect otherwise.
@@ -204,7 +204,7 @@ int run(RunArguments a) {
       throw std::invalid_argument("--torque-scale is for scenes of one lever; leave it out");
     }
     if (law_scenes().axes == nullptr) refuse_laws(scene_path + ": ");
-    a.design = a.design.empty() ? "lever" : built_design(a.design);
+    if (!a.design.empty()) a.design = built_design(a.design);
     return law_scenes().axes(scene_path, a);
   }
   if (a.columns) {

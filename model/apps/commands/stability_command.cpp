@@ -57,39 +57,8 @@ bool is_scene(const std::string& name) {
 }
 
 /// Whether two designs differ at most in what registers hold.
-bool same_structure(const design::Elaborated& a, const design::Elaborated& b) {
-  const design::Design &x = a.design, &y = b.design;
-  const auto same = [](const design::Word& v, const design::Word& w) {
-    return v.parameter.name == w.parameter.name && v.format == w.format;
-  };
-  return x.clock_hz == y.clock_hz && x.tick_hz == y.tick_hz && x.m1 == y.m1 && x.n == y.n &&
-         a.velocity_gain == b.velocity_gain && x.lines == y.lines && x.pwm_hz == y.pwm_hz &&
-         x.voltage_law == y.voltage_law && x.velocity == y.velocity && x.torque == y.torque &&
-         x.current == y.current && x.voltage == y.voltage && x.rounding == y.rounding &&
-         x.observer_fraction == y.observer_fraction && x.coefficient_bits == y.coefficient_bits &&
-         std::equal(a.words.begin(), a.words.end(), b.words.begin(), b.words.end(), same);
-}
-
-/// The design of a name, or of a file. The chain of a file is that of a built-in design of the same
-/// structure with the file's values in its registers. A file without one has no bits.
-design::Elaborated design_of(const StabilityArguments& a) {
-  const bool file = a.design.find('/') != std::string::npos || fs::path(a.design).has_extension();
-  if (!file) return elaborated_design(built_design(a.design));
-  design::Elaborated e = elaborated_design(a.design);
-  if (a.no_bits) return e;
-  for (const std::string& name : design_names()) {
-    if (!same_structure(e, elaborated_design(name))) continue;
-    e.design.name = name;
-    return e;
-  }
-  throw std::invalid_argument(
-      fmt::format("{}: no design in this program has its formats, tick and window, so its bits "
-                  "cannot run; add --no-bits for the eigenvalues alone",
-                  a.design));
-}
-
 int run(const StabilityArguments& a) {
-  const auto e = design_of(a);
+  const auto e = elaborated_design(a.design);
   const auto linear = plant::read_plant_file(find_file(a.linear, "vectors/plants"));
   const auto full = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
   files::Outputs outputs;
@@ -156,9 +125,7 @@ if it has a mass.
 Exit code: 0 bits and eigenvalues agree within 5 % (where the swing is large enough), 1
 otherwise, 2 unusable input. docs/speed-for-accuracy.md explains every column.)");
   defaulted(*sub, "design", a->design, "SCENE|DESIGN",
-            "a scene, in vectors/scenes or a path; or a design that was built in, by its "
-            "name in rtl/designs; or a file, whose bits are "
-            "those of a built-in design of the same structure with its cut-offs");
+            "a scene, in vectors/scenes or a path; or a design, in rtl/designs or a path");
   defaulted(*sub, "--linear-plant", a->linear, "PLANT",
             "plant of the borders, in vectors/plants or a path: without friction, dead "
             "voltage and dead time");

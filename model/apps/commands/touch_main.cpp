@@ -85,7 +85,7 @@ touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh,
   AxesScene scene = stylus_scene();
   scene.scenario.name = std::filesystem::path(a.glb).stem().string();
   scene.scenario.law = touch::law_of(request);
-  const DesignInfo info = find_axes_design(own_design(scene))->info();
+  const DesignInfo& info = design_named(own_design(scene));
   const auto law = make_axes_law(find_law(scene.scenario.law), info, axes_of(scene));
   AxesRunOptions options;
   options.design = own_design(scene);
@@ -100,7 +100,7 @@ touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh,
 void require_engine(const std::string& engine) {
   const std::string lead = choose_axes_backends(engine).lead;
   try {
-    (void)find_axes_design("stylus_law")->cores(lead);
+    (void)make_axes_cores("stylus_law", lead);
   } catch (const std::invalid_argument&) {
     throw std::invalid_argument(fmt::format(
         "--engine {}: this program has the twin alone; ./feltgate touch builds the one with the "

@@ -281,13 +281,11 @@ Trimmed trimmed_device(const std::string& path, TrimArguments& a, files::Outputs
   if (of_lever != nullptr) refuse_for_device(of_lever, path);
   AxesScene scene = device_scene(path);
   if (a.design.empty()) a.options.design = own_design(scene);
-  const AxesDesignMakers* made = find_axes_design(a.options.design);
-  if (made == nullptr) {
-    throw std::invalid_argument(
-        fmt::format("{}: {} is no design of a device in this program; leave --design out", path,
-                    a.options.design));
+  const DesignInfo& design = design_named(a.options.design);
+  if (design.axes != static_cast<int>(axes_of(scene))) {
+    throw std::invalid_argument(fmt::format(
+        "{}: {} is no design of this device; leave --design out", path, a.options.design));
   }
-  const DesignInfo design = made->info();
   const trim::LawMaker law = law_of(scene.scenario, design, axes_of(scene));
   if (!law) throw std::invalid_argument(path + ": a device of several axes needs a law");
   resolve_amounts(scene.scenario, design, law().get());

@@ -90,7 +90,7 @@ json hidden(const std::string& name, const shape::Placing& placing) {
 law::Compiled compiled(const std::string& law, const std::string& design = "lever",
                        double rate_hz = 0) {
   return law::compile(law::read_law(laws + law + ".law", rate_hz),
-                      law::target_of(page::law_design(design)));
+                      law::target_of(design_named(design)));
 }
 std::string image_of(const std::string& law, const std::string& design = "lever") {
   return law::text(compiled(law, design).image);

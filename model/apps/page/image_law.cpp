@@ -10,8 +10,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "feltgate/generated/gimbal_law.hpp"
-#include "feltgate/generated/stylus_law.hpp"
 #include "law/host_machine.hpp"
 #include "sim/backends/backend.hpp"
 
@@ -37,15 +35,9 @@ StateWord state_word(const law::Compiled& law, const std::string& name) {
   throw std::invalid_argument(fmt::format("law {} has no state {}", law.image.name, name));
 }
 
-DesignInfo law_design(const std::string& name) {
-  if (name == StylusLaw::name) return design_info<StylusLaw>();
-  if (name == GimbalLaw::name) return design_info<GimbalLaw>();
-  return design_named(name);
-}
-
 ImageLaw::ImageLaw(const std::string& image_text)
     : image_(law::read_image(image_text)),
-      design_(law_design(image_.design)),
+      design_(design_named(image_.design)),
       values_(image_),
       machine_(law::memory(image_)),
       period_s_(image_.threads[0].divider / static_cast<double>(design_.tick_hz)) {

@@ -25,13 +25,9 @@ struct StateWord {
 };
 /// Finds a state by name. Throws std::invalid_argument when the law has no such state.
 StateWord state_word(const law::Compiled& law, const std::string& name);
-
-/// The design of an image: stylus_law, gimbal_law or a built-in one. Throws std::invalid_argument.
-DesignInfo law_design(const std::string& name);
-
 class ImageLaw {
  public:
-  /// `image_text`: an image for one of law_design(). Throws std::invalid_argument.
+  /// `image_text`: an image for one of design_named(). Throws std::invalid_argument.
   explicit ImageLaw(const std::string& image_text);
   ImageLaw(const ImageLaw&) = delete;
   ImageLaw& operator=(const ImageLaw&) = delete;

@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "feltgate/generated/gimbal_motor.hpp"
 #include "sim/plant/drive.hpp"
 
 namespace feltgate::page {
 
 namespace {
 
-constexpr int ticks_per_period = GimbalMotor::pwm_period / GimbalMotor::clocks_per_tick;
 constexpr int ticks_per_step = 5;  // of the plant: on-times hold for 20 ticks
 constexpr int ticks_per_sample = 1000;
 constexpr double core_share = 0.2;   // of the pitch: where a detent's torque is largest
@@ -30,10 +28,8 @@ KnobCore::KnobCore()
     : design_(design_named(design_name)),
       chain_(make_real_chain(design_name, "fixed")),
       beside_(design_.control_reset),
-      commutation_(design_.pwm_period,
-                   static_cast<Commutation::Modulation>(GimbalMotor::modulation)),
-      sampling_tick_((GimbalMotor::pwm_period - 1 - commutation_.latency_clocks()) /
-                     GimbalMotor::clocks_per_tick),
+      commutation_(design_.pwm_period),
+      sampling_tick_((design_.pwm_period - 1 - axis::ThreePhase::lead) / design_.clocks_per_tick),
       gain_(static_cast<std::uint32_t>(design_.find("commutation_gain")->raw)),
       offset_(static_cast<std::uint32_t>(design_.find("commutation_offset")->raw)),
       scene_(design_.scene_number("charge_attract")) {
@@ -50,13 +46,13 @@ void KnobCore::set(const std::string& parameter, double value) {
 }
 
 void KnobCore::tick(std::int32_t position) {
-  const auto of_period = ticks_++ % ticks_per_period;
+  const auto of_period = ticks_++ % (design_.pwm_period / design_.clocks_per_tick);
   if (of_period == 0) {
     gates_ = armed_ && sampled_;
     on_ = gates_ ? next_ : std::array<std::int16_t, 3>{};
   }
   if (of_period == sampling_tick_) {
-    Commutation::In in;
+    axis::Commutation::In in;
     in.position = position;
     in.gain = gain_;
     in.offset = offset_;
@@ -107,7 +103,7 @@ void KnobLoop::offset(double turns) {
 
 int KnobLoop::pole_pairs() const {
   const double turns = core_.design().find("commutation_gain")->si;
-  return static_cast<int>(std::lround(std::ldexp(turns, GimbalMotor::absolute_bits)));
+  return static_cast<int>(std::lround(std::ldexp(turns, core_.design().absolute->bits)));
 }
 
 void KnobLoop::hold(bool held) {
@@ -151,9 +147,9 @@ void KnobLoop::step() {
 }
 
 void KnobLoop::tick(double theta_rad) {
-  constexpr int latency =
-      absolute_parameters<GimbalMotor>().reading_clocks() / GimbalMotor::clocks_per_tick + 1;
-  const auto of_reading = ticks_ % GimbalMotor::absolute_period;
+  const DesignInfo& design = core_.design();
+  const int latency = design.absolute->reading_clocks() / design.clocks_per_tick + 1;
+  const auto of_reading = ticks_ % design.data["ABSOLUTE_PERIOD"];
   if (of_reading == 0) {
     read_ = static_cast<std::int32_t>(std::floor(theta_rad / core_.design().count_rad));
   }

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "feltgate/commutation.hpp"
+#include "feltgate/axis/three_phase.hpp"
 #include "feltgate/while_armed.hpp"
 #include "sim/backends/backend.hpp"
 #include "sim/plant/three_phase.hpp"
@@ -47,7 +47,7 @@ class KnobCore {
   DesignInfo design_;
   std::unique_ptr<RealChain> chain_;
   HostBeside beside_;
-  Commutation commutation_;
+  axis::Commutation commutation_;
   int sampling_tick_;  ///< of a PWM period: so late that the on-times are new when the next begins
   std::uint32_t gain_, offset_;
   int scene_;

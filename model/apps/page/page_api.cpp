@@ -5,13 +5,15 @@
 // stability border by eigenvalues. Only Emscripten compiles it. Documentation: docs/page.md
 #include <emscripten/bind.h>
 
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "apps/page/api.hpp"
 #include "apps/page/live_loop.hpp"
 #include "apps/page/recorded_inputs.hpp"
 #include "apps/page/user_law.hpp"
-#include "design/design.hpp"
+#include "design/info.hpp"
 #include "feltgate/reading.hpp"
 #include "law/engine/machine.hpp"
 #include "sim/plant/plant_file.hpp"
@@ -92,7 +94,7 @@ class Loop {
   }
   val parameters() const {
     const feltgate::DesignInfo& d = loop_.design();
-    const std::vector<feltgate::ParameterInfo> all(d.parameters, d.parameters + d.parameter_count);
+    const std::vector<feltgate::ParameterInfo>& all = d.parameters;
     return array_of(all, [](const feltgate::ParameterInfo& p) {
       return object("name", std::string(p.name), "value", p.si, "high", feltgate::range_of(p).high);
     });
@@ -121,6 +123,19 @@ val check_law(const std::string& design, const std::string& text) {
   } catch (const std::exception& error) {
     return object("failed", std::string(error.what()));
   }
+}
+
+/// Designs come from files that scripts/web_page/compile.py has put into the page.
+void use_embedded_designs() {
+  feltgate::set_design_source(
+      {[](const std::string& name) {
+         return design::info_of(design::elaborate(design::read_design("/designs/" + name + ".toml"),
+                                                  design::read_registers("/rtl/registers.toml")));
+       },
+       [] {
+         std::ifstream in("/designs/names.txt");
+         return std::vector<std::string>(std::istream_iterator<std::string>(in), {});
+       }});
 }
 
 /// The designs that drive a lever's motor, with brushes.
@@ -158,6 +173,7 @@ val border(const std::string& name, const std::string& plant, double damping_nm_
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(feltgate) {
+  use_embedded_designs();
   emscripten::class_<Loop>("Loop")
       .constructor<std::string, std::string>()
       .function("select", &Loop::select)

@@ -65,8 +65,7 @@ class PyChain {
 py::dict parameters(const std::string& design) {
   const DesignInfo d = design_named(design);
   py::dict all;
-  for (int i = 0; i < d.parameter_count; ++i) {
-    const ParameterInfo& p = d.parameters[i];
+  for (const ParameterInfo& p : d.parameters) {
     all[p.name] = py::dict("value"_a = p.si, "unit"_a = p.unit,
                            "step"_a = std::ldexp(1.0, -p.format.fraction));
   }

@@ -1,46 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The extension module feltgate._core. Designs beyond lever and paper, presets and files given to
-// the build (FELTGATE_EXTRA_DESIGNS), are in a separate module, _designs, which is loaded when one
-// of them is first used. Documentation: docs/python.md
+// The extension module feltgate._core. Documentation: docs/python.md
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <vector>
 
 #include "apps/python/bindings.hpp"
+#include "design/info.hpp"
 #include "feltgate/nearest.hpp"
-#include "sim/reference/real_chain.hpp"
 
 namespace feltgate::python {
 
 namespace {
 
-/// Loads the module _designs and returns the makers of one of its designs.
-const DesignMakers& loaded(const std::string& name) {
-  const py::gil_scoped_acquire hold;
-  static const std::vector<DesignMakers>* all = nullptr;
-  if (all == nullptr) {
-    const py::capsule made = py::module_::import("feltgate._designs").attr("makers");
-    all = made.get_pointer<const std::vector<DesignMakers>>();
-  }
-  for (const DesignMakers& d : *all) {
-    if (d.name == name) return d;
-  }
-  throw std::logic_error("feltgate._designs has no " + name + "; install the package again");
+/// The data of this package; FELTGATE_ROOT of the environment goes before them.
+std::string& data_folder() {
+  static std::string folder;
+  return folder;
 }
 
-/// Registers these designs for make_backend() and make_real_chain(); returns their names.
-std::vector<std::string> add_extra_designs() {
-  std::vector<std::string> names;
-#define FELTGATE_DESIGN(name)                                                      \
-  add_design({#name, [](const std::string& k) { return loaded(#name).engine(k); }, \
-              [](const std::string& k) { return loaded(#name).chain(k); },         \
-              [] { return loaded(#name).info(); }});                               \
-  names.emplace_back(#name);
-#include "extra_designs.inc"
-#undef FELTGATE_DESIGN
-  return names;
+/// A design by the path of its file, or by its name in rtl/designs.
+DesignInfo read_named(const std::string& name) {
+  const char* given = std::getenv("FELTGATE_ROOT");
+  const std::string root = given != nullptr && *given != 0 ? given : data_folder();
+  std::string path = design::is_path(name) ? name : root + "/rtl/designs/" + name + ".toml";
+  if (!std::filesystem::exists(path)) path = data_folder() + "/rtl/designs/" + name + ".toml";
+  return design::info_of(elaborated_files(path, root + "/rtl/registers.toml"));
 }
 
 }  // namespace
@@ -55,7 +43,7 @@ design::Elaborated elaborated_files(const std::string& design_path,
 const ParameterInfo& parameter_of(const DesignInfo& design, const std::string& name) {
   if (const ParameterInfo* info = design.find(name)) return *info;
   std::vector<std::string> names;
-  for (int i = 0; i < design.parameter_count; ++i) names.emplace_back(design.parameters[i].name);
+  for (const ParameterInfo& p : design.parameters) names.emplace_back(p.name);
   throw std::invalid_argument(
       fmt::format("parameter \"{}\" is unknown; {}feltgate.parameters(\"{}\") lists them", name,
                   config::did_you_mean(name, names), design.name));
@@ -84,8 +72,8 @@ PYBIND11_MODULE(_core, m) {
   m.doc() = "The C++ side of the package feltgate.";
   py::register_exception_translator(translate);
   m.attr("version") = FELTGATE_VERSION;
-  m.attr("extra_designs") = add_extra_designs();
-  m.def("design_names", &design_names);
+  set_design_source({read_named, [] { return std::vector<std::string>(); }});
+  m.def("set_data", [](const std::string& folder) { data_folder() = folder; });
   bind_scenes(m);
   bind_plant(m);
   bind_chain(m);

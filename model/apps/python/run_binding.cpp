@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "apps/python/bindings.hpp"
-#include "design/generate.hpp"
 #include "sim/loop/columns.hpp"
 #include "sim/loop/loop.hpp"
 #include "sim/loop/scenario_bounds.hpp"
@@ -237,12 +236,6 @@ void bind_runs(py::module_& m) {
         [](const std::string& engines) { return choose_backends(engines).names(); });
   m.def("laws",
         [](const std::string& design_path) { return design::read_design(design_path).scenes; });
-  m.def("require_current", [](const std::string& design, const std::string& design_path,
-                              const std::string& registers_path) {
-    design::require_current(
-        elaborated_files(design_path, registers_path), design_named(design).file_sum,
-        "run ./feltgate generate and install the package again (pip install .)");
-  });
   m.def(
       "bounds",
       [](const std::string& design_path, const std::string& registers_path,

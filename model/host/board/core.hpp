@@ -94,12 +94,13 @@ class Core {
   virtual const TickHash& ticks() const = 0;
 };
 
-using CoreMaker = std::unique_ptr<Core> (*)(const BoardOptions&);
-/// Makes a kind of core, "twin" or "rtl", known: the sources of each design call it before main().
-bool add_core(const std::string& design, const std::string& kind, CoreMaker make);
-
-/// Errors: std::invalid_argument that names the command which builds it.
+/// Makes the core "twin" of a design, or "rtl" where the program has its Verilated board. Errors:
+/// std::invalid_argument that names the command which builds it.
 std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,
                                 const BoardOptions& options);
+
+/// Adds the Verilated board of a design, before main(), as add_rtl().
+using RtlCoreMaker = std::unique_ptr<Core> (*)(const DesignInfo&, const BoardOptions&);
+bool add_rtl_core(const std::string& design, std::uint32_t design_crc, RtlCoreMaker maker);
 
 }  // namespace feltgate::board

@@ -19,14 +19,15 @@
 
 namespace feltgate::board {
 
-/// Rtl is Verilator's class of board_pins for design D.
-template <class Rtl, class D>
+/// Rtl is Verilator's class of board_pins for this design.
+template <class Rtl>
 class PinRtl : public Core {
  public:
-  explicit PinRtl(const BoardOptions& o)
-      : info_(design_info<D>()),
+  PinRtl(const DesignInfo& design, const BoardOptions& o)
+      : info_(design),
+        bits_(design.data),
         rtl_(1),
-        line_(D::clock_hz, o.baud),
+        line_(design.clock_hz, o.baud),
         inputs_(static_cast<std::uint8_t>(o.inputs)),
         looped_(info_.current_full_scale_a > 0) {
     if (o.baud != LinkMap::baud) {
@@ -41,7 +42,7 @@ class PinRtl : public Core {
 
   const DesignInfo& design() const override { return info_; }
   const char* kind() const override { return "rtl"; }
-  std::size_t axes() const override { return D::axes; }
+  std::size_t axes() const override { return static_cast<std::size_t>(info_.axes); }
   void turn_encoder(double from_rad, double to_rad, Clock clocks) override {
     if (sensor_) sensor_->turn(from_rad, to_rad, now_, clocks);
   }
@@ -51,7 +52,7 @@ class PinRtl : public Core {
       const bool tx = rtl_->uart_tx_o != 0;
       rtl_->uart_rx_i = line_.level();
       line_.clock(tx);
-      if (sensor_) rtl_->encoder_data_i = sensor_->pin(now_, rtl_->serial_o);
+      if (sensor_) set_encoder_data_i(*rtl_, sensor_->pin(now_, serial_lines(*rtl_, bits_)), 0);
       // The stop was active since the last clock edge, and is not in the next clock.
       rtl_->stop_i = in.stop;
       rtl_.low();
@@ -59,14 +60,14 @@ class PinRtl : public Core {
       rtl_.high();
       if (looped_) gates_.add(gates());
       if (rtl_->snapshot_valid_o == 0) continue;
-      for (int n = 0; n < D::axes; ++n) hash_.add(read_axis<D>(*rtl_, n));
+      for (int n = 0; n < info_.axes; ++n) hash_.add(read_axis(*rtl_, bits_, n));
     }
   }
   void send(std::uint8_t byte) override { line_.send(byte); }
   std::size_t unsent() const override { return line_.unsent(); }
   std::vector<std::uint8_t> take_received() override { return line_.take_received(); }
   int duty(std::size_t axis) const override {
-    return read_axis<D>(*rtl_, static_cast<int>(axis)).duty_active;
+    return read_axis(*rtl_, bits_, static_cast<int>(axis)).duty_active;
   }
   int on_time(std::size_t leg) const override {
     const auto first = static_cast<int>(12 * leg);
@@ -80,15 +81,19 @@ class PinRtl : public Core {
 
  private:
   void drive(const BoardIn& in) {
-    for (int n = 0; n < D::axes; ++n) {
+    unsigned a = 0, b = 0, z = 0;
+    for (int n = 0; n < info_.axes; ++n) {
       const EncoderPins& pins = in.encoder[static_cast<std::size_t>(n)];
-      set_bits(rtl_->enc_a_i, n, 1, pins.a);
-      set_bits(rtl_->enc_b_i, n, 1, pins.b);
-      set_bits(rtl_->enc_z_i, n, 1, pins.z);
+      a |= unsigned{pins.a} << n;
+      b |= unsigned{pins.b} << n;
+      z |= unsigned{pins.z} << n;
       set_bits(rtl_->scene_i, 4 * n, 4, in.scene);
     }
-    rtl_->current_data_i = in.current_data;
-    rtl_->hall_i = in.hall;
+    set_enc_a_i(*rtl_, a, 0);
+    set_enc_b_i(*rtl_, b, 0);
+    set_enc_z_i(*rtl_, z, 0);
+    set_current_data_i(*rtl_, in.current_data, 0);
+    set_hall_i(*rtl_, in.hall, 0);
     rtl_->arm_i = in.arm;
     rtl_->inputs_i = inputs_;
   }
@@ -96,10 +101,11 @@ class PinRtl : public Core {
   unsigned gates() const {
     return static_cast<unsigned>(rtl_->gate_a_hi_o | rtl_->gate_a_lo_o << 1 |
                                  rtl_->gate_b_hi_o << 2 | rtl_->gate_b_lo_o << 3 |
-                                 rtl_->gate_c_hi_o << 4 | rtl_->gate_c_lo_o << 5);
+                                 get_gate_c_hi_o(*rtl_, 0) << 4 | get_gate_c_lo_o(*rtl_, 0) << 5);
   }
 
   DesignInfo info_;
+  PortBits bits_;
   RtlModel<Rtl> rtl_;
   UartLine line_;
   std::uint8_t inputs_;

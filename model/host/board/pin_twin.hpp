@@ -14,14 +14,13 @@
 
 namespace feltgate::board {
 
-template <class D>
+/// Of N axes, with an engine or without.
+template <int N, bool WithEngine>
 class PinTwin : public Core {
-  static constexpr int N = D::axes;
-
  public:
-  explicit PinTwin(const BoardOptions& o)
-      : info_(design_info<D>()),
-        core_(std::make_unique<Linked>(LinkedOptions{o.baud, o.simulated, o.board})),
+  PinTwin(const DesignInfo& design, const BoardOptions& o)
+      : info_(design),
+        core_(std::make_unique<Linked>(design.data, LinkedOptions{o.baud, o.simulated, o.board})),
         inputs_(static_cast<std::uint8_t>(o.inputs)),
         looped_(info_.current_full_scale_a > 0) {
     if (info_.absolute) sensor_.emplace(*info_.absolute);
@@ -77,7 +76,7 @@ class PinTwin : public Core {
   const TickHash& ticks() const override { return hash_; }
 
  private:
-  using Linked = LinkedCore<D, N>;
+  using Linked = LinkedCore<N, WithEngine>;
   const CoreOut& of_axis(std::size_t n) const { return linked::axis(core_->out(), n); }
 
   DesignInfo info_;

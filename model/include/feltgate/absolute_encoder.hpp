@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/encoder/absolute_encoder.sv: an absolute encoder over SPI with parity, SSI with
-// CRC-6 or BiSS-C, with checks and a count of whole turns. A frame is judged as a whole here, and
-// bit by bit in the RTL. Documentation: docs/blocks/absolute_encoder.md
+// Twin of rtl/options/absolute_encoder.sv with serial_frame.sv: an absolute encoder over SPI with
+// parity or SSI with CRC-6, with checks and a count of whole turns. A frame is judged as a whole
+// here, and bit by bit in the RTL. Documentation: docs/blocks/absolute_encoder.md
 #pragma once
 
 #include <algorithm>
@@ -14,30 +14,10 @@
 
 namespace feltgate {
 
-/// Clocks from a reading to the one that the table has corrected.
-constexpr int correction_clocks(int bits) { return bits - Map::absolute_segment_bits + 4; }
-
-/// A position [2^-bits turn] with the correction of its angle, interpolated between
-/// 2^absolute_segment_bits of 2^-absolute_entry_bits turn and rounded to counts, half up: within
-/// half a count of the straight lines between them. bits: 12 to 19.
-inline std::int32_t corrected(std::int32_t position, const std::int16_t* corrections, int bits) {
-  constexpr int below_count = Map::absolute_entry_bits - Map::absolute_segment_bits;
-  constexpr std::uint32_t last = (1u << Map::absolute_segment_bits) - 1;
-  const int part_bits = bits - Map::absolute_segment_bits;
-  const auto angle = static_cast<std::uint32_t>(position);
-  const auto part = static_cast<std::int32_t>(angle & ((1u << part_bits) - 1));
-  const std::uint32_t segment = angle >> part_bits;
-  const std::int32_t from = corrections[segment & last], to = corrections[(segment + 1) & last];
-  // In 2^-below_count of a count: an entry has entry_bits - bits below it, a part part_bits.
-  const std::int32_t sum = from * ((1 << part_bits) - part) + to * part;
-  const std::int32_t counts = (sum + (1 << (below_count - 1))) >> below_count;
-  return static_cast<std::int32_t>(angle + static_cast<std::uint32_t>(counts));
-}
-
 /// Bit-exact and clock-exact with the RTL.
 class AbsoluteEncoder {
  public:
-  enum Framing : int { kSpi = 0, kSsi = 1, kBiss = 2 };
+  enum Framing : int { kSpi = 0, kSsi = 1 };
   /// Bits of Out::faults.
   enum Fault : int {
     kMissing = 1,
@@ -49,21 +29,18 @@ class AbsoluteEncoder {
   /// Those of the RTL, with its defaults.
   struct Parameters {
     int framing = kSpi;
-    int bits = 14;              ///< of a turn, 12 to 24; SPI: 14
+    int bits = 14;              ///< of a turn, 12 to 22; SPI: 14
     int half_clocks = 5;        ///< half a serial clock, from 4
     int gap_clocks = 20;        ///< before the serial clock and between two readings, from 4
-    int ack_clocks = 64;        ///< BiSS-C: serial clocks in which the data must begin
     int errors = 4;             ///< wrong readings in a row that are a fault
     int frozen_step = 4;        ///< counts between two readings that are a motion
     int frozen_reads = 16;      ///< equal readings after a motion that are a fault
     int jump_step = 160;        ///< counts of the fastest motion from one reading to the next
     int diag_address = 0x3ffc;  ///< SPI: register of the diagnosis
     int diag_log2 = 4;          ///< SPI: it is read once in 2^diag_log2 readings
-    /// Bits that a sensor sends; BiSS-C: after the start bit.
-    constexpr int frame_bits() const {
-      return framing == kSpi ? 16 : framing == kSsi ? bits + 10 : bits + 9;
-    }
-    /// SPI and SSI: clocks from a sample that begins a reading to valid.
+    /// Bits that a sensor sends.
+    constexpr int frame_bits() const { return framing == kSpi ? 16 : bits + 10; }
+    /// Clocks from a sample that begins a reading to valid.
     constexpr int reading_clocks() const { return gap_clocks + 2 * half_clocks * frame_bits() + 5; }
   };
   struct In {
@@ -76,43 +53,36 @@ class AbsoluteEncoder {
     bool command = false;
     std::int32_t position = 0;  ///< counts of 2^-bits turn; wraps
     bool valid = false;
-    bool busy = false;
     bool starts = true;     ///< no reading was wrong since the reset
     int faults = kMissing;  ///< nothing is known before the first reading
   };
 
   AbsoluteEncoder() : AbsoluteEncoder(Parameters{}) {}
   explicit AbsoluteEncoder(const Parameters& parameters)
-      : p_(parameters), errors_(parameters.errors) {
-    out_.serial_clock = biss();
-  }
+      : p_(parameters), errors_(parameters.errors) {}
 
   void reset() { *this = AbsoluteEncoder(p_); }
 
   void clock(const In& in) {
     out_.valid = false;
     if (ends_) judge();
-    ends_ = missing_ = false;
+    ends_ = false;
     const bool reads = state_ == State::read;
-    out_.select_n = biss() || !(reads || state_ == State::lead);
-    const bool clocks = reads && (biss() || period_ < p_.frame_bits());
-    out_.serial_clock = clocks ? (wait_ < p_.half_clocks) != biss() : biss();
+    out_.select_n = !(reads || state_ == State::lead);
+    const bool clocks = reads && period_ < p_.frame_bits();
+    out_.serial_clock = clocks && wait_ < p_.half_clocks;
     if (clocks && wait_ == 0 && period_ != 0) command_ = (command_ << 1) & 0xffff;
     step(in.sample);
     out_.command = p_.framing == kSpi && (command_ & 0x8000) != 0;
-    out_.busy = state_ != State::idle;
     bit_ = captured_;
     captured_ = in.data;
   }
 
   const Out& out() const { return out_; }
-  const Parameters& parameters() const { return p_; }
 
  private:
   enum class State { idle, lead, read, gap };
   enum class Kind { nothing, angle, diagnosis, flags };
-
-  bool biss() const { return p_.framing == kBiss; }
 
   void step(bool sample) {
     switch (state_) {
@@ -126,9 +96,7 @@ class AbsoluteEncoder {
         if (++wait_ < p_.gap_clocks) break;
         wait_ = period_ = taken_ = 0;
         frame_ = 0;
-        ack_ = start_ = false;
         state_ = State::read;
-        if (biss() && !bit_) end(true);
         break;
       case State::read:
         read();
@@ -140,38 +108,20 @@ class AbsoluteEncoder {
   }
 
   void read() {
-    const bool started = start_;
-    const bool here = wait_ == take_at_ && taken_ < p_.frame_bits();
-    if (here && (biss() ? started : period_ != 0)) {
+    constexpr int take_at =
+        2;  // clocks after the serial clock's edge: two flip-flops after the pin
+    if (wait_ == take_at && period_ != 0) {
       frame_ = frame_ << 1 | (bit_ ? 1U : 0U);
       if (++taken_ == p_.frame_bits()) {
         ends_ = true;
-        if (!biss()) return leave();
-      }
-    }
-    if (biss()) {
-      if (ack_ && wait_ == take_at_ && bit_) start_ = true;
-      if (!ack_ && !bit_) {
-        ack_ = true;
-        take_at_ = (wait_ + p_.half_clocks) % (2 * p_.half_clocks);
+        wait_ = 0;
+        state_ = State::gap;
+        return;
       }
     }
     if (++wait_ < 2 * p_.half_clocks) return;
     wait_ = 0;
     ++period_;
-    if (!biss()) return;
-    if (taken_ == p_.frame_bits()) return leave();
-    if (!started && period_ == p_.ack_clocks) end(true);
-  }
-
-  void end(bool missing) {
-    ends_ = true;
-    missing_ = missing;
-    leave();
-  }
-  void leave() {
-    wait_ = 0;
-    state_ = State::gap;
   }
 
   void ask() {
@@ -206,11 +156,6 @@ class AbsoluteEncoder {
 
   /// What is wrong with the frame itself, 0 if nothing.
   int wrong() const {
-    if (missing_) return kMissing;
-    if (biss()) {
-      if (remainder(frame_ ^ 0x3f, p_.bits + 8) != 0) return kCheck;
-      return field(7, 1) == 0 ? kSensor : 0;
-    }
     if (p_.framing == kSsi) {
       if (remainder(frame_, p_.bits + 10) != 0) return kCheck;
       return field(9, 1) != 0 || field(6, 2) != 0 ? kSensor : 0;
@@ -224,15 +169,12 @@ class AbsoluteEncoder {
     const bool is_angle = p_.framing != kSpi || answer_ == Kind::angle;
     int kind = wrong();
     const auto turn = std::int32_t{1} << p_.bits;
-    const auto angle = static_cast<std::int32_t>(field(p_.framing == kSpi ? 0
-                                                       : biss()           ? 8
-                                                                          : 10,
-                                                       p_.bits));
+    const auto angle = static_cast<std::int32_t>(field(p_.framing == kSpi ? 0 : 10, p_.bits));
     std::int32_t step = (angle - turn_ + turn) % turn;
     if (step >= turn / 2) step -= turn;
     if (kind != 0 || !is_angle) reach_ = std::min(turn / 8, reach_ + pace());
     if (kind == 0 && is_angle && !is_lost && std::abs(step) > reach_) kind = kJump;
-    if (!missing_) flagged_ = field(14, 1) != 0 && asked_ != Kind::flags;
+    flagged_ = field(14, 1) != 0 && asked_ != Kind::flags;
     if (kind != 0) {
       kind_ = kind;
       out_.starts = false;
@@ -278,8 +220,8 @@ class AbsoluteEncoder {
   Out out_;
   bool captured_ = false, bit_ = false;  // the pin one and two clocks ago
   State state_ = State::idle;
-  int wait_ = 0, period_ = 0, taken_ = 0, take_at_ = 2;
-  bool ack_ = false, start_ = false, ends_ = false, missing_ = false;
+  int wait_ = 0, period_ = 0, taken_ = 0;
+  bool ends_ = false;
   std::uint64_t frame_ = 0;
   Kind asked_ = Kind::nothing, answer_ = Kind::nothing;
   std::uint32_t command_ = 0;

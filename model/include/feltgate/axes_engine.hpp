@@ -11,25 +11,37 @@
 
 #include "feltgate/axes_ports.hpp"
 #include "feltgate/engine_runs.hpp"
+#include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/map.hpp"
 
 namespace feltgate {
 
+/// A program's torques, in the format of the torque; late: they are too old or not checked.
+template <int N>
+struct Program {
+  std::array<std::int32_t, N> torque{};
+  bool late = false;
+};
+
 /// Without an engine: the programmed torques come from the ports.
-template <class D, int N>
+template <int N>
 class NoAxesEngine {
  public:
+  explicit NoAxesEngine(const axis::Design&) {}
   void reset() {}
   template <class Cores>
   void clock(const AxesIn<N>&, const Cores&, const std::array<CoreIn, N>&) {}
-  /// Sets the law inputs of the cores for the next clock.
+  /// Sets what the cores take of the program in every clock.
   template <class Cores>
   void give(const AxesIn<N>& in, const Cores&, std::array<CoreIn, N>& each) const {
-    for (std::size_t n = 0; n < N; ++n) {
-      each[n].law_torque = in.axis[n].law_torque;
-      each[n].law_late = in.law_late;
-      each[n].law_restart = in.law_restart;
-    }
+    for (CoreIn& core : each) core.law_restart = in.law_restart;
+  }
+  /// What they take with the position, in the clock `ahead` clocks from now.
+  Program<N> program(const AxesIn<N>& in, int) const {
+    Program<N> p;
+    for (std::size_t n = 0; n < N; ++n) p.torque[n] = in.axis[n].law_torque;
+    p.late = in.law_late;
+    return p;
   }
   void show(const AxesIn<N>&, AxesOut<N>&) const {}
 
@@ -39,7 +51,6 @@ class NoAxesEngine {
     return true;
   }
   bool may_tick(int) const { return true; }
-  void torques(int, std::array<CoreIn, N>&) const {}
   template <class Cores>
   void tick(int, const Cores&) {}
   template <class Cores, class OnEvent>
@@ -49,18 +60,21 @@ class NoAxesEngine {
 };
 
 /// The engine, the check of its programs at each arming, and the decision when a torque may jump.
-template <class D, int N>
+template <int N>
 class AxesEngine {
  public:
-  using EngineOf = law::Engine<N, D::f.torque.width()>;
+  using EngineOf = law::Engine<N>;
 
-  AxesEngine() { reset(); }
+  explicit AxesEngine(const axis::Design& d)
+      : runs_(static_cast<unsigned>(d["ENGINE_MAX_AGE"]), d["TORQUE_W"], timing(d)) {
+    reset();
+  }
 
   EngineOf& engine() { return runs_.clocked(); }
   const EngineWatch& watch() const { return runs_.watch(); }
   /// Whether the engine is computed run by run at present.
   bool runs_whole() const { return runs_.on(); }
-  /// Whether the torque might jump in the wave of the tick that was measured last.
+  /// Whether the torque might jump in the tick that was measured last.
   bool restarted() const { return restarted_; }
   /// Whether the port takes no write, at any address.
   bool port_busy() const { return out_.busy; }
@@ -79,19 +93,30 @@ class AxesEngine {
     bool law = false;
     for (const auto& core : cores) law |= in_law(core);
     for (std::size_t n = 0; n < N; ++n) {
-      each[n].law_torque = out_.torque[n];
-      each[n].law_late = out_.late || !out_.crc_good;
       each[n].law_restart = may_jump();
-      each[n].axis_silent |= !state_.checked;
+      each[n].axis_silent |= !state_.taken_checked;
       each[n].axis_blocked |= law && state_.checked && !out_.crc_good;
     }
+  }
+
+  Program<N> program(const AxesIn<N>&, int ahead) {
+    Program<N> p;
+    p.late = out_.late || !out_.crc_good;
+    if (runs_.on()) {
+      p.torque = runs_.torque(ahead);
+    } else {
+      runs_.take();
+      p.torque = out_.torque;
+    }
+    return p;
   }
 
   /// One clock; call it before the cores' clock.
   template <class Cores>
   void clock(const AxesIn<N>& in, const Cores& cores, const std::array<CoreIn, N>& each) {
     State& s = state_;
-    if (cores[0].clock_of_tick() == D::clocks_per_tick - 1) restarts_ = may_jump();
+    const bool last = cores[0].last();
+    if (last) restarts_ = may_jump();
     if (cores[0].measured()) restarted_ = restarts_;
     bool law = false, armed = false, all_ask = true, zeroed = false;
     for (std::size_t n = 0; n < N; ++n) {
@@ -100,8 +125,7 @@ class AxesEngine {
       all_ask &= cores[n].arm_request(each[n]);
       zeroed |= cores[n].zeroed();
     }
-    const bool shown = cores[0].out().snapshot_valid;
-    const bool check = shown && all_ask && !s.checked && !s.checks;
+    const bool check = last && all_ask && !s.checked && !s.checks;
     const bool addressed = is_engine(in.reg_addr);
 
     typename EngineOf::In to;
@@ -125,14 +149,15 @@ class AxesEngine {
     const typename EngineOf::Out before = runs_.clocked().peek(to);
     s.rdata = addressed ? before.rdata : 0;
     s.rdata_known = !addressed || before.rdata_known;
-    if (shown && !all_ask) {
-      s.check_of_these = s.checked = false;
+    if (last && !all_ask) {
+      s.check_of_these = s.checked = s.taken_checked = false;
     } else {
+      if (s.checked && cores[0].samples()) s.taken_checked = true;
       if (out_.crc_done && s.check_of_these) s.checked = true;
       if (check) s.check_of_these = true;
     }
     s.checks = check || (s.checks && !out_.crc_done);
-    s.sampled = s.runs == 0 && (s.sampled || to.tick);
+    s.sampled = s.runs == 0 && (s.sampled || cores[0].samples());
     if ((law && !s.law) || (armed && !s.armed) || zeroed || out_.changed) {
       s.runs = 2;
     } else if (out_.fresh && s.runs != 0) {
@@ -160,7 +185,7 @@ class AxesEngine {
       armed |= cores[n].out().armed;
       all_ask &= cores[n].arm_request(each[n]);
     }
-    const bool settled = all_ask ? s.checked : !s.checked && !s.check_of_these;
+    const bool settled = all_ask ? s.taken_checked : !s.checked && !s.check_of_these;
     if (law != s.law || (armed && !s.armed) || !settled) return false;
     s.armed = armed;
     s.rdata = 0;
@@ -177,11 +202,6 @@ class AxesEngine {
     const bool may = runs_.may_tick(ahead);
     if (!may) runs_.give_up();
     return may;
-  }
-  /// Sets the torques that the cores take in the clock `ahead` clocks from now.
-  void torques(int ahead, std::array<CoreIn, N>& each) {
-    const auto& torque = runs_.torque(ahead);
-    for (std::size_t n = 0; n < N; ++n) each[n].law_torque = torque[n];
   }
   /// A tick in the clock `ahead` clocks from now; the cores hold its measurements.
   template <class Cores>
@@ -215,7 +235,8 @@ class AxesEngine {
   struct State {
     bool law = false, armed = false;
     bool checks = false, check_of_these = false, checked = false;
-    int runs = 0;  ///< runs that must end before the torque includes the change
+    bool taken_checked = false;  ///< the axes have taken the torques of checked programs
+    int runs = 0;                ///< runs that must end before the torque includes the change
     bool sampled = true;
     std::uint32_t rdata = 0;
     bool rdata_known = true;
@@ -245,13 +266,15 @@ class AxesEngine {
     return core.out().scene == Map::S::law;
   }
 
-  using Runs = law::EngineRuns<N, D::f.torque.width()>;
-  // The core shows the snapshot one clock before its step.
-  static constexpr law::RunTiming kTiming{D::clocks_per_tick, Map::T::tau_hat - Map::T::sample,
-                                          Map::T::tau_hat - Map::T::velocity,
-                                          Map::T::snapshot - Map::T::tau_hat - 2};
+  static law::RunTiming timing(const axis::Design& d) {
+    using Core = FeltgateCore;
+    constexpr int measured = Core::measured_clock;
+    const int tick = d["CLOCKS_PER_TICK"];
+    return {tick, measured - Core::sample_clock - 1, measured - Core::velocity_clock,
+            tick - 2 - measured};
+  }
 
-  Runs runs_{D::engine_max_age, kTiming};
+  law::EngineRuns<N> runs_;
   typename EngineOf::Out out_;
   State state_;
   /// restarts_: may_jump() at the end of the last tick; restarted_: see restarted().

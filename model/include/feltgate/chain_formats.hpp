@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The format of every signal of the chain, derived from a design's base formats by the growth
-// rules. The twin uses the result at compile time; the generator writes it into feltgate_pkg.sv.
+// rules. The twin uses the result at compile time; the generator writes it into cfg.sv.
 // Documentation: docs/fixed-point.md
 #pragma once
 

@@ -56,6 +56,7 @@ class CoreGates {
   std::uint8_t bits() const { return bits_; }
   /// The duty says it all.
   static int on_time(std::size_t) { return 0; }
+  bool period_start() const { return pwm_.out().period_start; }
   std::int16_t duty_active() const { return pwm_.out().duty_active; }
   /// Clocks since reset for which each gate was on, in the same order.
   GateCounts on_clocks() const {

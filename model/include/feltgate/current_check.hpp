@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/current_check.sv: compares a measured current with the one that the
+// Twin of rtl/options/current_check.sv: compares a measured current with the one that the
 // applied voltage makes; and its words from a winding. Documentation: docs/blocks/current.md
 #pragma once
 

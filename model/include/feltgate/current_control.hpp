@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/current_control.sv: the PI law of the motor current, whose integrator
+// Twin of rtl/options/current_control.sv: the PI law of the motor current, whose integrator
 // follows the applied voltage as the winding's resistance does; and its gains from a winding.
 // Documentation: docs/blocks/current.md
 #pragma once
@@ -41,10 +41,9 @@ inline CurrentGains current_gains(double resistance_ohm, double inductance_h, do
 /// Bit-exact and clock-exact with the RTL.
 class CurrentControl {
  public:
-  /// LSB of full-scale current, and of the supply's voltage.
-  static constexpr std::int64_t kFullScale = 1 << kCurrentControlBits;
-  static constexpr std::int64_t kSupply = kFullScale;
-  static constexpr int kLatencyClocks = 20;  ///< from valid to out().valid
+  /// LSB of the supply's voltage.
+  static constexpr std::int64_t kSupply = 1 << kCurrentControlBits;
+  static constexpr int kLatencyClocks = 20;  ///< from valid to the voltage
   static constexpr int kBusyClocks = 39;     ///< fewest from a taken valid to the next one
   struct In {
     bool armed = false;             ///< false: voltage and integrator are 0
@@ -58,8 +57,6 @@ class CurrentControl {
   };
   struct Out {
     std::int32_t voltage = 0;    ///< [1,0,17] of the supply: the duty; held between results
-    bool valid = false;          ///< one clock: voltage is new
-    bool saturated = false;      ///< the last result was limited
     std::int32_t resistive = 0;  ///< [1,1,17] of the supply: whole part of the integrator
   };
 
@@ -70,7 +67,6 @@ class CurrentControl {
       reset();
       return;
     }
-    out_.valid = step_ == kLatencyClocks - 1;
     if (step_ == 0 && !in.valid) return;
     switch (step_) {
       case 0:
@@ -80,9 +76,7 @@ class CurrentControl {
         break;
       case kLatencyClocks - 1: {
         const std::int64_t limit = in.limit;
-        const std::int64_t voltage = std::clamp(wanted_, -limit, limit);
-        out_.voltage = static_cast<std::int32_t>(voltage);
-        out_.saturated = voltage != wanted_;
+        out_.voltage = static_cast<std::int32_t>(std::clamp(wanted_, -limit, limit));
         break;
       }
       case kLatencyClocks:
@@ -99,8 +93,6 @@ class CurrentControl {
   }
 
   const Out& out() const { return out_; }
-  /// [1,1,34] of the supply: what the winding's resistance takes.
-  std::int64_t integrator() const { return integrator_; }
 
  private:
   static constexpr std::int64_t kHalf = std::int64_t{1} << (kCurrentProportionalBits - 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/current_sense.sv: a current from a sigma-delta bit stream by a sinc3
+// Twin of rtl/options/current_sense.sv: a current from a sigma-delta bit stream by a sinc3
 // filter in step with the PWM, over-current by a fast one, offset and faults. The sums have 64 bits
 // here and wrap like the shorter ones of the RTL. Documentation: docs/blocks/current.md
 #pragma once
@@ -30,11 +30,6 @@ class CurrentSense {
     constexpr std::int64_t fast_full_scale() const {
       return std::int64_t{1} << (3 * fast_log2 - 1);
     }
-    /// Most clocks from a step at the modulator, which shows it two of its clocks later, to
-    /// overcurrent.
-    constexpr int overcurrent_clocks() const { return divider * ((hits + 3) << fast_log2) + 7; }
-    /// Clocks from the edge that launches a bit to the result in which it is the last.
-    constexpr int latency_clocks() const { return divider + 7; }
     /// Clocks from a strobe to the centre of its window, and from there to the result, both for a
     /// modulator that shows a current two of its clocks later. The first is that of a strobe in the
     /// clock before one that takes a bit; it is up to divider - 1 clocks more.
@@ -53,7 +48,6 @@ class CurrentSense {
   struct Out {
     bool modulator_clock = false;
     std::int64_t current = 0;  ///< LSB: clipping input / full_scale()
-    bool valid = false;
     bool aligned = false;
     bool overcurrent = false;
     bool calibrated = false;
@@ -80,9 +74,6 @@ class CurrentSense {
   }
 
   const Out& out() const { return out_; }
-  const Parameters& parameters() const { return p_; }
-  /// What the average of the results is taken for, LSB of the current.
-  std::int64_t offset() const { return offset_; }
 
  private:
   /// The combs of a sinc3, and its result on the way to the outputs.
@@ -130,7 +121,6 @@ class CurrentSense {
   }
 
   void current(bool arrives, bool armed) {
-    out_.valid = arrives;
     out_.aligned = arrives && aligned_;
     const std::int64_t value = main_.value - p_.full_scale();
     if (arrives) {

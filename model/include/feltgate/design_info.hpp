@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The constants of a generated design as run-time information. Documentation: docs/library.md
+// A design as run-time information: rates, formats, parameters, and the data that the twin is made
+// of. Documentation: docs/library.md
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <iterator>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "feltgate/absolute_position.hpp"
+#include "feltgate/axis/absolute.hpp"
+#include "feltgate/axis/design.hpp"
+#include "feltgate/generated/map.hpp"
 #include "feltgate/nearest.hpp"
 #include "feltgate/parameter.hpp"
 
@@ -30,31 +34,38 @@ struct CommandBits {
   int set_zero = 0, clear_faults = 0, kick = 0;
 };
 
-/// The constants of a design.
+/// A design. design_info<Lever>() gives that of a generated header; feltgate::design::info_of()
+/// that of a file.
 struct DesignInfo {
-  const char* name = "";
+  std::string name;
+  axis::Design data;  ///< what the twin is made of
   std::int64_t clock_hz = 0, tick_hz = 0;
   int clocks_per_tick = 0, pwm_period = 0, dead_clocks = 0, shortest_clocks = 1, pwm_mode = 0;
-  int phases = 2;              ///< 3: the bridge has three legs, and turns the voltage
-  int m1 = 0;                  ///< window of the N-method, in ticks; 0: M/T
-  double rad_s_per_count = 0;  ///< velocity that one count in that window stands for
+  int phases = 2;                  ///< 3: the bridge has three legs, and turns the voltage
+  int m1 = 0;                      ///< window of the N-method, in ticks; 0: M/T
+  double rad_s_per_count = 0;      ///< velocity that one count in that window stands for
+  double velocity_gain_rad_s = 0;  ///< exact, of a count in the window; 0: what the data say
   double count_rad = 0, supply_v = 0;
   Format velocity{}, torque{}, current{}, voltage{};
   double torque_constant_nm_a = 0;
   double current_full_scale_a = 0;  ///< of the current loop's modulator; 0: no loop
   std::optional<AbsoluteEncoder::Parameters> absolute;  ///< nothing: the encoder is incremental
-  bool hall = false;  ///< Hall lines give the electrical angle at power-up
-  const ParameterInfo* parameters = nullptr;
-  int parameter_count = 0;
-  int control_address = 0, command_address = 0;
+  bool hall = false;    ///< Hall lines give the electrical angle at power-up
+  int axes = 1;         ///< motors with an encoder each
+  bool engine = false;  ///< programs give the torque of the scene law
+  std::vector<ParameterInfo> parameters;
+  int control_address = Map::C::control, command_address = Map::C::command;
   ControlBits control;
   CommandBits command;
   std::uint32_t control_reset = 0;
-  std::uint32_t design_crc = 0;  ///< identifies the design for a host, docs/link.md
-  std::uint32_t file_sum = 0;    ///< of the file in rtl/designs that it was generated from
-  std::function<int(const std::string&)> scene_number;  ///< -1: unknown, or not built
+  std::uint32_t design_crc = 0;     ///< identifies the design for a host, docs/link.md
   std::vector<std::string> scenes;  ///< the scenes that are built, in the order of their numbers
 
+  /// The number of a scene; -1: unknown, or not built.
+  int scene_number(const std::string& scene) const {
+    const int n = Map::scene_number(scene);
+    return n >= 0 && data.has_scene(n) ? n : -1;
+  }
   /// When a request to arm may rise: as wanted, or once the offset of a current is known, after 512
   /// PWM periods, if that is longer than a request may wait for it.
   std::int64_t request_at(std::int64_t wanted) const {
@@ -64,16 +75,24 @@ struct DesignInfo {
   }
   /// The parameter of that name; nullptr where the design has none.
   const ParameterInfo* find(std::string_view parameter) const {
-    for (int i = 0; i < parameter_count; ++i) {
-      if (parameter == parameters[i].name) return &parameters[i];
+    for (const ParameterInfo& p : parameters) {
+      if (parameter == p.name) return &p;
     }
     return nullptr;
+  }
+  /// The parameter at this address. Errors: std::invalid_argument where there is none.
+  const ParameterInfo& at(int address) const {
+    for (const ParameterInfo& p : parameters) {
+      if (p.address == address) return p;
+    }
+    throw std::invalid_argument("design " + name + " has no parameter at address " +
+                                std::to_string(address) + "; docs/registers.md lists them");
   }
   /// Error message for a name that find() does not know: the nearest name, and where all are
   /// listed.
   std::string unknown(const std::string& parameter) const {
     std::vector<std::string> names;
-    for (int i = 0; i < parameter_count; ++i) names.emplace_back(parameters[i].name);
+    for (const ParameterInfo& p : parameters) names.emplace_back(p.name);
     return "parameter \"" + parameter + "\" is unknown; " + config::did_you_mean(parameter, names) +
            "`feltgate design " + name + "` lists them";
   }
@@ -107,53 +126,69 @@ inline std::optional<std::int64_t> quantised(const ParameterInfo& p, double valu
   return static_cast<std::int64_t>(steps);
 }
 
-/// The generated constants of design D as run-time information.
+/// What of a design is no integer of its data.
+struct DesignReals {
+  double count_rad = 0, velocity_gain_rad_s = 0, supply_v = 0;
+};
+
+/// A design of its data. Errors: std::out_of_range where a constant is missing.
+inline DesignInfo design_info(std::string name, axis::Design data,
+                              std::vector<ParameterInfo> parameters, const DesignReals& reals) {
+  using C = Map::C;
+  const axis::Design& d = data;
+  const auto signal = [&d](const std::string& signal) {
+    const int width = d[signal + "_W"], fraction = d[signal + "_F"];
+    return Format{1, width - 1 - fraction, fraction};
+  };
+  DesignInfo i;
+  i.name = std::move(name);
+  i.clock_hz = d.wide("CLOCK_HZ");
+  i.clocks_per_tick = d["CLOCKS_PER_TICK"];
+  i.tick_hz = i.clock_hz / i.clocks_per_tick;
+  i.pwm_period = d["PWM_PERIOD"];
+  i.dead_clocks = d["DEAD_CLOCKS"];
+  i.shortest_clocks = d["SHORTEST_CLOCKS"];
+  i.control_reset = static_cast<std::uint32_t>(d["CONTROL_RESET"]);
+  i.pwm_mode = i.control_reset >> C::control_pwm_mode & 1;
+  i.phases = d["PHASES"];
+  i.hall = d["HALL"] != 0;
+  i.axes = d["AXES"];
+  i.engine = d["ENGINE"] != 0;
+  i.m1 = d["M1"];
+  i.rad_s_per_count = d["VELOCITY_GAIN"] == 0
+                          ? std::ldexp(1.0, d["VELOCITY_SHIFT"])
+                          : std::ldexp(d["VELOCITY_GAIN"], -d["VELOCITY_GAIN_F"]);
+  i.velocity_gain_rad_s = reals.velocity_gain_rad_s;
+  i.count_rad = reals.count_rad;
+  i.supply_v = reals.supply_v;
+  i.velocity = signal("VELOCITY");
+  i.torque = signal("TORQUE");
+  i.current = signal("CURRENT");
+  i.voltage = signal("VOLTAGE");
+  // An LSB of the measured current is 2^current_drop of the reference.
+  if (d["CURRENT_LOOP"] != 0) {
+    i.current_full_scale_a = std::ldexp(1.0, 17 + d["CURRENT_DROP"] - i.current.fraction);
+  }
+  if (d["ABSOLUTE_ENCODER"] != 0) i.absolute = axis::Absolute::parameters(d);
+  i.control = {C::control_host, C::control_arm, C::control_scene, C::control_mode};
+  i.command = {C::command_set_zero, C::command_clear_faults, C::command_kick};
+  i.design_crc = static_cast<std::uint32_t>(d.wide("DESIGN_CRC"));
+  for (const std::string_view scene : Map::scene_names) {
+    const int n = Map::scene_number(scene);
+    if (n >= 0 && d.has_scene(n)) i.scenes.emplace_back(scene);
+  }
+  i.parameters = std::move(parameters);
+  i.torque_constant_nm_a = i.find("torque_constant")->si;
+  i.data = std::move(data);
+  return i;
+}
+
+/// The design of a generated header, such as feltgate/generated/lever.hpp.
 template <class D>
 DesignInfo design_info() {
-  DesignInfo i;
-  i.name = D::name;
-  i.clock_hz = D::clock_hz;
-  i.tick_hz = D::tick_hz;
-  i.clocks_per_tick = D::clocks_per_tick;
-  i.pwm_period = D::pwm_period;
-  i.dead_clocks = D::dead_clocks;
-  i.shortest_clocks = D::shortest_clocks;
-  i.pwm_mode = (D::control_reset >> D::C::control_pwm_mode) & 1;
-  i.phases = D::phases;
-  i.hall = D::hall != 0;
-  i.m1 = D::m1;
-  i.rad_s_per_count = D::velocity_gain == 0
-                          ? std::ldexp(1.0, D::velocity_shift)
-                          : std::ldexp(static_cast<double>(D::velocity_gain), -D::velocity_gain_f);
-  i.count_rad = D::count_rad;
-  i.supply_v = D::supply_v;
-  i.velocity = D::f.velocity;
-  i.torque = D::f.torque;
-  i.current = D::f.current;
-  i.voltage = D::f.voltage;
-  // An LSB of the measured current is 2^current_drop of the reference.
-  if (D::current_loop != 0) {
-    i.current_full_scale_a = std::ldexp(1.0, 17 + D::current_drop - D::f.current.fraction);
-  }
-  if (D::absolute_encoder != 0) i.absolute = absolute_parameters<D>();
-  i.parameters = D::parameters;
-  i.parameter_count = static_cast<int>(std::size(D::parameters));
-  i.torque_constant_nm_a = i.find("torque_constant")->si;
-  i.control_address = D::C::control;
-  i.command_address = D::C::command;
-  i.control = {D::C::control_host, D::C::control_arm, D::C::control_scene, D::C::control_mode};
-  i.command = {D::C::command_set_zero, D::C::command_clear_faults, D::C::command_kick};
-  i.control_reset = static_cast<std::uint32_t>(D::control_reset);
-  i.design_crc = D::design_crc;
-  i.file_sum = D::file_sum;
-  i.scene_number = [](const std::string& name) {
-    const int n = D::scene_number(name);
-    return n >= 0 && ((D::scene_mask >> n) & 1) != 0 ? n : -1;
-  };
-  for (const std::string_view scene : D::scene_names) {
-    if (i.scene_number(std::string(scene)) >= 0) i.scenes.emplace_back(scene);
-  }
-  return i;
+  return design_info(D::name, axis::Design::of<D>(),
+                     {std::begin(D::parameters), std::end(D::parameters)},
+                     {D::count_rad, D::velocity_gain_rad_s, D::supply_v});
 }
 
 }  // namespace feltgate

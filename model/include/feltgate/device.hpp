@@ -31,9 +31,9 @@ struct Parameter {
   double low = 0, high = 0, step = 0;
 };
 
-/// A device of any design; TwinDevice<Lever> below is one, make_device("lever") of feltgate::sim
-/// gives another. Requests (parameters, scene, arming) take effect with the next ticks, as at the
-/// pins.
+/// A device of any design; TwinDevice below is the twin's, make_device("lever") of feltgate::sim
+/// makes one by the name of its design. Requests (parameters, scene, arming) take effect with the
+/// next ticks, as at the pins.
 class Device {
  public:
   virtual ~Device() = default;
@@ -96,7 +96,7 @@ class Device {
   /// Advances the core one clock; stretch() advances `clocks` clocks and notes every snapshot.
   virtual void step(const CoreIn& in) = 0;
   virtual void stretch(const CoreIn& in, Clock clocks) = 0;
-  void note(const CoreOut& snapshot) { reading_ = reading_of(design_, snapshot); }
+  void note(const CoreOut& snapshot) { read(design_, snapshot, reading_); }
 
  private:
   void write(int address, std::uint32_t data);
@@ -106,7 +106,7 @@ class Device {
   void refuse_while_armed(const std::string& what) const;
   int clock_of_tick() const { return static_cast<int>(now_ % design_.clocks_per_tick); }
   Clock end_of_tick() const { return now_ + design_.clocks_per_tick - clock_of_tick(); }
-  void begin_tick();
+  void begin_tick(const CoreOut& now);
   void advance(Clock until);
   const ParameterInfo& find(const std::string& name) const;
 
@@ -124,13 +124,12 @@ class Device {
   bool cleared_ = false;           ///< its write is sent in this tick
 };
 
-/// The twin of design D as a device.
-template <class D>
+/// The twin of a design as a device: TwinDevice(design_info<Lever>()).
 class TwinDevice final : public Device {
  public:
-  TwinDevice() : Device(design_info<D>()) {}
+  explicit TwinDevice(const DesignInfo& design) : Device(design), core_(design.data) {}
   const CoreOut& out() const override { return core_.out(); }
-  const FeltgateCore<D>& core() const { return core_; }
+  const FeltgateCore& core() const { return core_; }
 
  private:
   void step(const CoreIn& in) override {
@@ -141,7 +140,7 @@ class TwinDevice final : public Device {
     core_.run(in, clocks, [this] { note(core_.out()); });
   }
 
-  FeltgateCore<D> core_;
+  FeltgateCore core_;
 };
 
 }  // namespace feltgate

@@ -17,28 +17,28 @@
 namespace feltgate {
 
 inline Device::Device(DesignInfo design) : design_(std::move(design)) {
-  for (int i = 0; i < design_.parameter_count; ++i) raw_.push_back(design_.parameters[i].raw);
+  for (const ParameterInfo& p : design_.parameters) raw_.push_back(p.raw);
 }
 
 /// Sets the arm pin; arming needs a request that was low at the end of the tick before. A request
 /// that a fault or a stop has ended is not repeated.
-inline void Device::begin_tick() {
-  if ((out().faults != 0 && !clearing_) || in_.stop) wanted_ = false;
-  in_.arm = wanted_ && !clearing_ && held_ == 0 && (armed() || low_before_);
+inline void Device::begin_tick(const CoreOut& now) {
+  if ((now.faults != 0 && !clearing_) || in_.stop) wanted_ = false;
+  in_.arm = wanted_ && !clearing_ && held_ == 0 && (now.armed || low_before_);
 }
 
 /// Advances to the clock `until` with the pins unchanged.
 inline void Device::advance(Clock until) {
-  const std::pair<std::uint16_t, std::uint32_t> clear{
-      static_cast<std::uint16_t>(design_.command_address), 1u << design_.command.clear_faults};
+  const CoreOut& core = out();
   while (now_ < until) {
     const int clock = clock_of_tick();
-    if (clock == 0) begin_tick();
-    const bool waits = !writes_.empty() && armed() && holds(writes_.front().first);
-    if (clock == host_write_clock && !writes_.empty() && !waits && !out().reg_busy) {
+    if (clock == 0) begin_tick(core);
+    if (clock == host_write_clock && !writes_.empty() && !core.reg_busy &&
+        !(core.armed && holds(writes_.front().first))) {
       in_.reg_addr = writes_.front().first;
       in_.reg_wdata = writes_.front().second;
-      cleared_ = writes_.front() == clear;
+      cleared_ = in_.reg_addr == design_.command_address &&
+                 in_.reg_wdata == 1u << design_.command.clear_faults;
       if (holds(in_.reg_addr)) --held_;
       writes_.pop_front();
       in_.reg_write = true;
@@ -46,8 +46,8 @@ inline void Device::advance(Clock until) {
       ++now_;
     } else {
       const bool whole = writes_.empty() || clock >= host_write_clock;
-      const Clock next = whole ? end_of_tick() : now_ + host_write_clock - clock;
-      const Clock clocks = std::min(until, next) - now_;
+      const Clock next = (whole ? design_.clocks_per_tick : host_write_clock) - clock;
+      const Clock clocks = std::min(until - now_, next);
       in_.reg_write = false;
       stretch(in_, clocks);
       now_ += clocks;
@@ -176,22 +176,20 @@ inline void Device::set(const std::string& parameter, double value) {
     throw std::invalid_argument(text.str());
   }
   if (holds(p.address)) refuse_while_armed(parameter);
-  raw_[static_cast<std::size_t>(&p - design_.parameters)] = *raw;
+  raw_[static_cast<std::size_t>(&p - design_.parameters.data())] = *raw;
   write(p.address, static_cast<std::uint32_t>(*raw));
 }
 
 inline Parameter Device::parameter(const std::string& name) const {
   const ParameterInfo& p = find(name);
   const ValueRange range = range_of(p);
-  const std::int64_t raw = raw_[static_cast<std::size_t>(&p - design_.parameters)];
+  const std::int64_t raw = raw_[static_cast<std::size_t>(&p - design_.parameters.data())];
   return {p.name, p.unit, static_cast<double>(raw) * range.step, range.low, range.high, range.step};
 }
 
 inline std::vector<Parameter> Device::parameters() const {
   std::vector<Parameter> all;
-  for (int i = 0; i < design_.parameter_count; ++i) {
-    all.push_back(parameter(design_.parameters[i].name));
-  }
+  for (const ParameterInfo& p : design_.parameters) all.push_back(parameter(p.name));
   return all;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/core/encoder/encoder_monitor.sv: detects, tick by tick, an encoder whose edges come on
+// Law of rtl/core/encoder_monitor.sv: detects, tick by tick, an encoder whose edges come on
 // one channel only. Documentation: docs/blocks/encoder.md
 #pragma once
 
@@ -25,6 +25,12 @@ class EncoderMonitorLaw {
             std::uint32_t count = 0) {
     index_trips_ = index_wrong && !index_wrong_;
     index_wrong_ = index_wrong;
+    if (levels == levels_ && count == count_ && !chatters()) {  // no edge, and none is counted
+      moved_ = trips_ = false;
+      chatter_units_ = 0;
+      if (edge_units_ != Map::edge_units && whole(tick, edge_bits_)) ++edge_units_;
+      return;
+    }
     const unsigned changed = levels ^ levels_;
     const bool far = fast_ && ((count - count_ + 1) & 63u) > 2;
     const bool both = changed == 3;

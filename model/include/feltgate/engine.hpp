@@ -15,12 +15,12 @@
 
 namespace feltgate::law {
 
-/// Clocked twin of an engine for AxisCount axes, whose torques have TorqueW bits.
-template <int AxisCount = 1, int TorqueW = 21>
+/// Clocked twin of an engine for AxisCount axes.
+template <int AxisCount = 1>
 class Engine {
  public:
   using Inputs = EngineInputs<AxisCount>;
-  using Outputs = EngineOutputs<AxisCount, TorqueW>;
+  using Outputs = EngineOutputs<AxisCount>;
 
   struct In {
     bool armed = false;
@@ -50,8 +50,11 @@ class Engine {
     bool busy = false;         ///< the port takes no write
   };
 
-  /// `max_age` [tick]: its value after a reset where the configuration does not state one.
-  explicit Engine(unsigned max_age = 0) { configure({}, EngineReset{}, max_age); }
+  /// `max_age` [tick]: its value after a reset where the configuration does not state one. The
+  /// torques have `torque_bits`.
+  explicit Engine(unsigned max_age = 0, int torque_bits = 21) : outputs_(torque_bits) {
+    configure({}, EngineReset{}, max_age);
+  }
 
   /// Contents of the memories after power-up; a reset keeps them.
   EngineMemory& memory() { return barrel_.memory; }
@@ -66,7 +69,7 @@ class Engine {
     barrel_.reset();
     barrel_.memory.line_base = static_cast<int>(reset_.line_base);
     inputs_.reset();
-    outputs_ = Outputs{};
+    outputs_.reset();
     commit_ = EngineCommit{};
     mailbox_ = EngineMailbox{};
     lines_ = EngineLines{};
@@ -186,7 +189,7 @@ class Engine {
   }
 
  private:
-  template <int Axes, int Width>
+  template <int Axes>
   friend class EngineRuns;
 
   static constexpr int kKnown = 40;

@@ -13,7 +13,7 @@
 #include "feltgate/engine_ops.hpp"
 
 namespace feltgate::law {
-template <int AxisCount, int TorqueW>
+template <int AxisCount>
 class EngineRuns;
 }  // namespace feltgate::law
 
@@ -94,7 +94,7 @@ class EngineBarrel {
   }
 
  private:
-  template <int AxisCount, int TorqueW>
+  template <int AxisCount>
   friend class law::EngineRuns;
 
   /// An instruction in the pipeline, or a turn without one.

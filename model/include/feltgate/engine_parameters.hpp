@@ -8,7 +8,7 @@
 #include "feltgate/generated/engine.hpp"
 
 namespace feltgate::law {
-template <int AxisCount, int TorqueW>
+template <int AxisCount>
 class EngineRuns;
 }  // namespace feltgate::law
 
@@ -112,7 +112,7 @@ class EngineMailbox {
   }
 
  private:
-  template <int AxisCount, int TorqueW>
+  template <int AxisCount>
   friend class law::EngineRuns;
 
   unsigned age_ = 0;

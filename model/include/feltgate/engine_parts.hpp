@@ -113,7 +113,7 @@ class EngineInputs {
   }
 
  private:
-  template <int Axes, int TorqueW>
+  template <int Axes>
   friend class law::EngineRuns;
 
   bool due(unsigned run) const {
@@ -128,7 +128,7 @@ class EngineInputs {
 };
 
 /// Twin of rtl/engine/engine_outputs.sv: the torques, limited to their format, and their age.
-template <int AxisCount, int TorqueW>
+template <int AxisCount>
 class EngineOutputs {
  public:
   struct In {
@@ -142,10 +142,21 @@ class EngineOutputs {
     int thread = 0, number = 0;
   };
 
+  /// The torques have so many bits.
+  explicit EngineOutputs(int torque_bits = 21) : top_((1 << (torque_bits - 1)) - 1) {}
+
   std::array<std::int32_t, AxisCount> torque{};
   /// fresh: one clock, torques of all axes have appeared since its last one. late: they are too
   /// old.
   bool fresh = false, late = false;
+
+  void reset() {
+    const std::int32_t top = top_;
+    *this = EngineOutputs{};
+    top_ = top;
+  }
+  /// The nearest torque.
+  std::int32_t limited(std::int32_t result) const { return std::clamp(result, -top_ - 1, top_); }
 
   void clock(const In& in) {
     unsigned appears = 0;
@@ -166,8 +177,7 @@ class EngineOutputs {
         a.waits = false;
       }
       if (!written) continue;
-      constexpr std::int32_t top = (1 << (TorqueW - 1)) - 1;
-      a.next = std::clamp(in.result, -top - 1, top);
+      a.next = limited(in.result);
       a.by = in.thread;
     }
     constexpr unsigned all = (1U << AxisCount) - 1;
@@ -189,7 +199,7 @@ class EngineOutputs {
   }
 
  private:
-  template <int Axes, int Width>
+  template <int Axes>
   friend class law::EngineRuns;
 
   struct Axis {
@@ -197,6 +207,7 @@ class EngineOutputs {
     int by = 0;
     bool waits = false;
   };
+  std::int32_t top_;
   std::array<Axis, AxisCount> axes_{};
   bool ends_ = false;
   int thread_ = 0;
@@ -261,7 +272,7 @@ class EngineCrc {
   }
 
  private:
-  template <int AxisCount, int TorqueW>
+  template <int AxisCount>
   friend class law::EngineRuns;
 
   bool waits_ = false, read_ = false;

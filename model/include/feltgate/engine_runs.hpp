@@ -21,16 +21,17 @@ namespace feltgate::law {
 /// the clock in which the hardware shows it. Writes since the start of the run before can be
 /// undone, so the clocked twin can continue from any clock with the same state as if it had been
 /// used throughout.
-template <int AxisCount, int TorqueW>
+template <int AxisCount>
 class EngineRuns {
  public:
-  using Clocked = Engine<AxisCount, TorqueW>;
+  using Clocked = Engine<AxisCount>;
   using In = typename Clocked::In;
   using Out = typename Clocked::Out;
   using Axes = typename EngineInputs<AxisCount>::Axes;
   using Timing = RunTiming;
 
-  EngineRuns(unsigned max_age, const Timing& timing) : engine_(max_age), ticks_(timing) {}
+  EngineRuns(unsigned max_age, int torque_bits, const Timing& timing)
+      : engine_(max_age, torque_bits), ticks_(timing) {}
 
   /// The engine as clocked twin, from the present clock on.
   Clocked& clocked() {
@@ -51,6 +52,9 @@ class EngineRuns {
     if (rest_ > 0) --rest_;
   }
   const EngineWatch& watch() const { return watch_; }
+  /// The axes take the torque in this clock; with torque() instead while runs are computed as a
+  /// whole.
+  void take() { watch_.take(); }
   /// Whether a commit is under way: then parameters cannot be written.
   bool committing() const { return engine_.commit_.committing(); }
 
@@ -120,7 +124,7 @@ class EngineRuns {
   /// The torques in force in the clock `ahead` clocks from now, in which the cores take them.
   const std::array<std::int32_t, AxisCount>& torque(int ahead) {
     settle(now_ + ahead);
-    watch_.in_force = watch_.ended;
+    watch_.take();
     return state_.torque;
   }
   /// Reports that `clocks` clocks have passed and what the axes show now. Calls `on_event(clock,
@@ -274,9 +278,8 @@ class EngineRuns {
       }
       if (step.to >= 0) write(step.to, s.acc);
       if (i.dst == static_cast<int>(EngineTarget::output) && (i.d & 3) < AxisCount) {
-        constexpr std::int32_t top = (1 << (TorqueW - 1)) - 1;
         comes.mask |= 1U << (i.d & 3);
-        comes.torque[static_cast<std::size_t>(i.d & 3)] = std::clamp(s.acc, -top - 1, top);
+        comes.torque[static_cast<std::size_t>(i.d & 3)] = engine_.outputs_.limited(s.acc);
       }
       if (i.dst == static_cast<int>(EngineTarget::event)) {
         events_.push_back({n + stages * count + 8, i.d, s.acc});
@@ -298,7 +301,6 @@ class EngineRuns {
     while (coming_ > 0 && comes_[0].clock < n) {
       if (comes_[0].renews(state_.renewed)) {
         fresh_at_ = comes_[0].clock + 1;
-        watch_.ended_before = watch_.ended;
         watch_.end();
         if (silent_) watch_.ended.reset();
       }

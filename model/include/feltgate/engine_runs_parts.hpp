@@ -20,7 +20,7 @@ namespace feltgate::law {
 /// Timing of the device, in clocks. `clocks_per_tick`: length of a tick. `position_ahead`,
 /// `velocity_ahead`: how long before the clock that latches the inputs the axes show the new tick's
 /// position and velocity. `known_for`: a run that begins up to known_for + 1 clocks after that
-/// clock still belongs to what the tick's snapshot reports.
+/// clock still belongs to what is told of the tick.
 struct RunTiming {
   int clocks_per_tick, position_ahead, velocity_ahead, known_for;
 };

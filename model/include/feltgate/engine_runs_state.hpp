@@ -14,8 +14,8 @@
 
 namespace feltgate::law {
 
-template <int AxisCount, int TorqueW>
-bool EngineRuns<AxisCount, TorqueW>::enter(const In& in, int clock_of_tick) {
+template <int AxisCount>
+bool EngineRuns<AxisCount>::enter(const In& in, int clock_of_tick) {
   if (on_) {  // only ticks change anything
     if (addr_ != in.addr) addr_since_ = now_;
     addr_ = in.addr;
@@ -63,8 +63,8 @@ bool EngineRuns<AxisCount, TorqueW>::enter(const In& in, int clock_of_tick) {
   return on_;
 }
 
-template <int AxisCount, int TorqueW>
-void EngineRuns<AxisCount, TorqueW>::leave() {
+template <int AxisCount>
+void EngineRuns<AxisCount>::leave() {
   if (!on_) return;
   on_ = false;
   writes_.take_back(engine_.barrel_.memory);
@@ -89,13 +89,12 @@ void EngineRuns<AxisCount, TorqueW>::leave() {
   auto& clocks = engine_.registers_.clocks;
   clocks = static_cast<int>(std::min<std::int64_t>(clocks, now_ - addr_since_));
   watch_.running = engine_.running(0);
-  if (fresh_at_ != now_) watch_.ended_before = watch_.ended;
 }
 
 /// Whether a run starts now or none runs, and nothing else is under way, except a word that the run
 /// will read.
-template <int AxisCount, int TorqueW>
-bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
+template <int AxisCount>
+bool EngineRuns<AxisCount>::at_start(const In& in) const {
   const auto& r = engine_.registers_;
   const auto& w = r.written;
   const auto& inputs = engine_.inputs_;
@@ -119,8 +118,8 @@ bool EngineRuns<AxisCount, TorqueW>::at_start(const In& in) const {
 }
 
 /// Writes the last words of the inputs, which may still be in the pipeline: the run will read them.
-template <int AxisCount, int TorqueW>
-void EngineRuns<AxisCount, TorqueW>::land_input() {
+template <int AxisCount>
+void EngineRuns<AxisCount>::land_input() {
   for (const int k : {6, 5}) {
     const auto& turn = stage(k);
     if (turn.writes_data) write(turn.address, static_cast<std::int32_t>(turn.extra));
@@ -128,8 +127,8 @@ void EngineRuns<AxisCount, TorqueW>::land_input() {
 }
 
 /// Sets the clocked twin to the state base_: just before the start of a run, nothing under way.
-template <int AxisCount, int TorqueW>
-void EngineRuns<AxisCount, TorqueW>::adopt() {
+template <int AxisCount>
+void EngineRuns<AxisCount>::adopt() {
   if (base_.clock == 0) return;
   auto& barrel = engine_.barrel_;
   const auto turns = static_cast<int>(base_.clock % stages);

@@ -19,9 +19,11 @@ struct EngineWatch {
   std::int64_t changes_at_begin = 0;
   bool stale = false;               ///< a mailbox was too old at the last tick: no torque
   std::deque<std::uint32_t> begun;  ///< ticks of the runs that have not ended yet
-  /// Tick of the samples of: the last run that has ended; the same one clock ago; the run whose
-  /// torque the core has taken.
-  std::optional<std::uint32_t> ended, ended_before, in_force;
+  /// Tick of the samples of: the last run that has ended; the run whose torque the axes have taken.
+  std::optional<std::uint32_t> ended, in_force;
+
+  /// The axes take the torque.
+  void take() { in_force = ended; }
 
   /// One clock of the engine, with its inputs and its outputs after the clock. `late`: in this
   /// clock a mailbox has become too old, which takes the torque away. `stops`: delay lines are
@@ -29,11 +31,9 @@ struct EngineWatch {
   void clock(bool ticks, std::uint32_t tick_count, bool runs, bool fresh, bool takes, bool late,
              bool stops = false) {
     if (ticks) {
-      in_force = ended_before;
       begins = false;
       stale = late;
     }
-    ended_before = ended;
     changes += takes;
     if (runs && !running) begin(tick_count);
     running = runs;

@@ -10,37 +10,43 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 #include "feltgate/axes_engine.hpp"
-#include "feltgate/core_steps.hpp"
 #include "feltgate/feltgate_core.hpp"
 
 namespace feltgate {
 
-/// N axes of design D, each a core. The device adds the signals between the cores, the register
-/// port, and with WithEngine the engine; its torque then replaces the inputs law_...
-template <class D, int N, bool ReadBack = true, bool WithEngine = false>
+/// N axes of a design, each a core. The device adds the signals between the cores, the register
+/// port, and with WithEngine the engine; its torque then replaces the inputs law_... What a core
+/// takes of the program, and whether an axis before it tests itself, is sampled with the position.
+template <int N, bool WithEngine = false>
 class FeltgateAxes {
  public:
   static_assert(N >= 1 && N <= 3, "one to three axes");
-  using Core = FeltgateCore<D, ReadBack>;
-  using Glue = std::conditional_t<WithEngine, AxesEngine<D, N>, NoAxesEngine<D, N>>;
+  using Core = FeltgateCore;
+  using Glue = std::conditional_t<WithEngine, AxesEngine<N>, NoAxesEngine<N>>;
   using In = AxesIn<N>;
   using Out = AxesOut<N>;
 
-  FeltgateAxes() { show({}); }
+  /// `reads`: a host reads the words of the axes.
+  explicit FeltgateAxes(const axis::Design& d, bool reads = true)
+      : cores_(make_cores(Core(d, reads), std::make_index_sequence<N>())), glue_(d) {
+    show({});
+  }
 
-  /// The parameter RAMs keep their words, as in the RTL.
-  void reset() {
-    for (Core& core : cores_) core.reset();
+  /// A clock with the reset. The parameter RAMs keep their words, as in the RTL.
+  void reset(const In& in = {}) {
+    const std::array<CoreIn, N> each = inputs(in);
+    for (std::size_t n = 0; n < N; ++n) cores_[n].reset(each[n]);
     glue_.reset();
+    taken_ = {};
+    duties_ = 0;
     show({});
   }
 
   void clock(const In& in) {
-    const std::array<CoreIn, N> each = inputs(in);
-    glue_.clock(in, cores_, each);
-    for (std::size_t n = 0; n < N; ++n) cores_[n].clock(each[n]);
+    one_clock(in, inputs(in));
     show(in);
   }
 
@@ -48,7 +54,8 @@ class FeltgateAxes {
   /// Equals so many calls of clock(), but goes from event to event where no axis can affect the
   /// others. `on_snapshot()` is called whenever out() holds a valid snapshot. A watcher gets
   /// `event(clock, number)` for each event of a program, where clock 0 is the first of these
-  /// clocks, and `words()` when core(0) has all words of a tick.
+  /// clocks, and `tick_ends()` before a tick's last clock, when all is known of the runs that began
+  /// in it.
   template <class OnSnapshot>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     NoWatcher none;
@@ -59,16 +66,17 @@ class FeltgateAxes {
     std::int64_t at = 0;
     while (at < clocks) {
       std::array<CoreIn, N> each = inputs(in);
-      bool snapshot = false;
-      int step = pass(in, each, at, clocks, &snapshot, watcher);
+      bool snapshot = false, ends = false;
+      int step = pass(in, each, at, clocks, &snapshot, &ends, watcher);
       if (step == 0) {
         step = 1;
         if (glue_.event_valid()) watcher.event(at, glue_.event_number());
         one_clock(in, each);
         snapshot = out_.axis[0].snapshot_valid;
-        if (snapshot) watcher.words();
+        ends = last();
       }
       if (snapshot) on_snapshot();
+      if (ends) watcher.tick_ends();
       at += step;
     }
     show(in);
@@ -79,6 +87,8 @@ class FeltgateAxes {
   Core& core(int n) { return cores_[static_cast<std::size_t>(n)]; }
   /// The next clock's number in its tick; the same for all axes.
   int clock_of_tick() const { return cores_[0].clock_of_tick(); }
+  /// Whether the next clock is the last of its tick.
+  bool last() const { return clock_of_tick() == cores_[0].clocks_per_tick() - 1; }
   /// Whether in the next clock position, velocity and tau_hat of all axes are those of this tick.
   bool measured() const { return cores_[0].measured(); }
   /// The engine; only with WithEngine.
@@ -100,24 +110,53 @@ class FeltgateAxes {
   }
 
  private:
-  /// The clock of a tick after which the cores have measured. They take torques in the clock before
-  /// it.
-  static constexpr int kMeasured = core_steps::clock_of(Map::T::tau_hat) + 1;
-  static_assert(kMeasured == core_steps::clock_of(Map::T::law_torque) + 1);
+  template <std::size_t... Axis>
+  static std::array<Core, N> make_cores(const Core& core, std::index_sequence<Axis...>) {
+    return {(static_cast<void>(Axis), core)...};
+  }
+
+  static constexpr int kSample = Core::sample_clock, kMeasured = Core::measured_clock;
+  static constexpr unsigned kAll = (1U << N) - 1;
+  /// What the cores have taken with the position.
+  struct Taken {
+    Program<N> program;
+    std::array<bool, N> waits{};
+  };
 
   struct NoWatcher {
     void event(std::int64_t, int) {}
-    void words() {}
+    void tick_ends() {}
   };
 
   // Out of line, like pass(): flattened into an engine's advance() it takes a minute to compile and
   // is no faster.
-  [[gnu::noinline]] void one_clock(const In& in, std::array<CoreIn, N>& each) {
+  [[gnu::noinline]] void one_clock(const In& in, const std::array<CoreIn, N>& each) {
+    const int at = clock_of_tick();
+    if (at == kSample) taken_ = take(in, 0);
+    duties_ = at == cores_[0].clocks_per_tick() - 1 ? 0 : duties_ | duties();
     glue_.clock(in, cores_, each);
+    for (std::size_t n = 0; n < N; ++n) cores_[n].clock(each[n]);
+    show_axes();
+  }
+  /// The axes whose duty is new, by bit.
+  unsigned duties() const {
+    unsigned all = 0;
+    for (std::size_t n = 0; n < N; ++n) all |= (cores_[n].out().snapshot_valid ? 1U : 0U) << n;
+    return all;
+  }
+  /// A snapshot waits for the duties of all axes.
+  void show_axes() {
+    const unsigned now = duties();
     for (std::size_t n = 0; n < N; ++n) {
-      cores_[n].clock(each[n]);
       out_.axis[n] = cores_[n].out();
+      out_.axis[n].snapshot_valid = now != 0 && (duties_ | now) == kAll;
     }
+  }
+  /// What the cores sample in the clock `ahead` clocks from now.
+  Taken take(const In& in, int ahead) {
+    Taken t{glue_.program(in, ahead), {}};
+    for (std::size_t n = 1; n < N; ++n) t.waits[n] = t.waits[n - 1] || cores_[n - 1].testing();
+    return t;
   }
 
   /// Advances from event to event, at most to the end of the tick, towards clock `clocks` of run(),
@@ -125,8 +164,8 @@ class FeltgateAxes {
   /// clock().
   template <class Watcher>
   [[gnu::noinline]] int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t at,
-                             std::int64_t clocks, bool* snapshot, Watcher& watcher) {
-    constexpr int tick = D::clocks_per_tick;
+                             std::int64_t clocks, bool* snapshot, bool* ends, Watcher& watcher) {
+    const int tick = cores_[0].clocks_per_tick();
     const int from = clock_of_tick();
     int to = static_cast<int>(std::min<std::int64_t>(tick, from + clocks - at));
     if (WithEngine) {
@@ -136,18 +175,33 @@ class FeltgateAxes {
       }
       if (to == from) return 0;
     }
-    if (!apart(each, to == tick)) return 0;
-    const bool takes = from < kMeasured && kMeasured <= to;
+    if (!in_step()) return 0;
+    if (!apart(each, to == tick)) {
+      // One clock, before whose end no axis affects another.
+      if (!enabled()) return 0;
+      to = from + 1;
+    }
+    const bool samples = from <= kSample && kSample < to;
     const bool measures = from <= kMeasured && kMeasured < to;
     if (measures && !glue_.may_tick(kMeasured - from)) return 0;
-    if (takes) glue_.torques(kMeasured - 1 - from, each);
+    if (samples) {
+      const Taken now = take(in, kSample - from);
+      if (now.program.late != taken_.program.late) return 0;
+      taken_ = now;
+      give_taken(each);
+    }
+    if (to == tick) {
+      duties_ = 0;
+    } else if (to > cores_[0].duty_clock()) {
+      duties_ = kAll;
+    }
     for (std::size_t n = 0; n < N; ++n) {
       cores_[n].run(each[n], to - from, [&, n] {
         out_.axis[n] = cores_[n].out();
         *snapshot = true;
-        if (n == 0) watcher.words();  // once the tick is over they belong to the next
       });
     }
+    *ends = from < tick - 1 && to >= tick - 1;
     if (measures) glue_.tick(kMeasured - from, cores_);
     glue_.advance(to - from, cores_,
                   [&](int clock, int number) { watcher.event(at + clock, number); });
@@ -177,23 +231,41 @@ class FeltgateAxes {
         each[n].axis_silent |= !core.arm_request(each[other]);
         each[n].axis_blocked |= !core.ready();
         each[n].axis_testing |= core.testing();
-        each[n].axis_waits |= other < n && core.testing();
       }
     }
+    give_taken(each);
     glue_.give(in, cores_, each);
     return each;
   }
+  void give_taken(std::array<CoreIn, N>& each) const {
+    for (std::size_t n = 0; n < N; ++n) {
+      each[n].law_torque = taken_.program.torque[n];
+      each[n].law_late = taken_.program.late;
+      each[n].axis_waits = taken_.waits[n];
+    }
+  }
 
+  /// Whether the duties of all axes are new in one clock, with an engine that of a program's
+  /// torque.
+  bool in_step() const {
+    const int clock = WithEngine ? Core::law_duty_clock : cores_[0].duty_clock();
+    return std::all_of(cores_.begin(), cores_.end(),
+                       [clock](const Core& core) { return core.duty_clock() == clock; });
+  }
+
+  bool enabled() const {
+    return std::any_of(cores_.begin(), cores_.end(),
+                       [](const Core& core) { return core.out().gates_enable; });
+  }
   /// Whether no axis affects the others before the tick ends: no gates close, and, if the stretch
   /// ends the tick, no axis asks to be armed.
   bool apart(const std::array<CoreIn, N>& each, bool ends) const {
     if (N == 1) return true;
-    bool enabled = false, asks = false;
-    for (std::size_t n = 0; n < N; ++n) {
-      enabled |= cores_[n].out().gates_enable;
-      asks |= cores_[n].arm_request(each[n]);
+    if (!enabled()) {
+      bool asks = false;
+      for (std::size_t n = 0; n < N; ++n) asks |= cores_[n].arm_request(each[n]);
+      return !ends || !asks;
     }
-    if (!enabled) return !ends || !asks;
     for (std::size_t n = 0; n < N; ++n) {
       if (cores_[n].may_trip(each[n])) return false;
     }
@@ -210,8 +282,8 @@ class FeltgateAxes {
   void show(const In& in) {
     out_.reg_rdata = 0;
     out_.reg_busy = false;
+    show_axes();
     for (std::size_t n = 0; n < N; ++n) {
-      out_.axis[n] = cores_[n].out();
       out_.reg_rdata |= out_.axis[n].reg_rdata;
       out_.reg_busy |= addressed(n, in.reg_addr) && out_.axis[n].reg_busy;
     }
@@ -220,6 +292,8 @@ class FeltgateAxes {
 
   std::array<Core, N> cores_;
   Glue glue_;
+  Taken taken_;
+  unsigned duties_ = 0;  ///< axes whose duty is of this tick, by bit
   Out out_;
 };
 

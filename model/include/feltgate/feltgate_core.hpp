@@ -1,403 +1,365 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/feltgate_core.sv: the whole core, every output pin and register in every clock.
-// The wave is computed in a few steps; each result appears in the clock in which the RTL shows it.
-// clock() advances one clock, run() a stretch without input changes, with identical results.
-// Documentation: docs/architecture.md
+// The chip of a design with one axis, bit-exact and clock-exact: the axis between the sockets of
+// its encoder and its bridge, as in rtl/tops. clock() is one clock; run() takes a tick as a whole
+// where nothing out of the ordinary happens in it, with identical results. docs/architecture.md
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
+#include <type_traits>
+#include <variant>
 
+#include "feltgate/axis/absolute.hpp"
+#include "feltgate/axis/axis.hpp"
+#include "feltgate/axis/h_bridge_current.hpp"
+#include "feltgate/axis/heartbeat.hpp"
+#include "feltgate/axis/quadrature_hall.hpp"
+#include "feltgate/axis/three_phase.hpp"
+#include "feltgate/axis/three_phase_current.hpp"
 #include "feltgate/core_ports.hpp"
-#include "feltgate/core_steps.hpp"
-#include "feltgate/core_wave.hpp"
-#include "feltgate/current_loop.hpp"
-#include "feltgate/hall_sensor.hpp"
-#include "feltgate/hold_timer.hpp"
-#include "feltgate/registers.hpp"
-#include "feltgate/self_test.hpp"
-#include "feltgate/supervisor.hpp"
-#include "feltgate/three_phase_bridge.hpp"
 
 namespace feltgate {
 
-/// ReadBack = false: no snapshot in the registers, every read gives 0 (a parameter of the RTL).
-template <class D, bool ReadBack = true>
+/// The result of the self-test, as in the status word.
+enum class SelfTestResult : std::uint8_t {
+  none = 0,
+  right = Map::self_test_right,
+  held = Map::self_test_held,
+  moving = Map::self_test_moving
+};
+
+/// The design of a generated header, as data.
+template <class D>
+const axis::Design& design_of() {
+  static const axis::Design design = axis::Design::of<D>();
+  return design;
+}
+
 class FeltgateCore {
  public:
   using In = CoreIn;
   using Out = CoreOut;
 
-  FeltgateCore() {
+  /// The clocks of a tick in which the position is sampled, velocity and tau_hat are new, and the
+  /// duty of a program's torque.
+  static constexpr int sample_clock = axis::TickCounter::sample_clock;
+  static constexpr int velocity_clock = axis::Axis::velocity_clock;
+  static constexpr int measured_clock = axis::Axis::measured_clock;
+  static constexpr int law_duty_clock =
+      velocity_clock + axis::Scene<axis::Fixed>::usual_latency + axis::Axis::duty_after_scene;
+
+  /// `reads`: a host reads; without it every read gives 0, and no words are told.
+  explicit FeltgateCore(const axis::Design& d, bool reads = true)
+      : axis_(d),
+        encoder_(encoder_of(d)),
+        bridge_(bridge_of(d)),
+        heartbeat_(d),
+        clocks_per_tick_(d["CLOCKS_PER_TICK"]),
+        reads_(reads),
+        beats_(d["HEARTBEAT"] != 0),
+        whole_(std::holds_alternative<axis::Quadrature>(encoder_) &&
+               std::holds_alternative<axis::HBridge>(bridge_)) {
     reset();
-    note_supervisor_words();
   }
 
-  /// The parameter RAM keeps its words, as in the RTL.
-  void reset() {
-    registers_.lose_snapshot(clock_ - 1 - Map::first_wave_clock);
-    clock_ = 0;
-    registers_.reset();
-    decoder_.reset();
-    wave_.reset();
-    loop_.reset();
-    monitor_ = made_monitor();
-    hold_ = {};
-    supervisor_.reset();
-    gates_.reset();
-    self_test_ = {};
-    operand_v_ = operand_w_ = 0;
-    passed_to_ = -1;
-    writes_ = 0;
-    out_ = Out{};
-    show();
+  /// A clock with the reset. The parameter RAM keeps its words, as in the RTL.
+  void reset(const CoreIn& in = {}) {
+    sockets([&](auto& encoder, auto& bridge) {
+      axis_.reset({encoder.out(), bridge.out(), in});
+      encoder.reset();
+      bridge.reset();
+      heartbeat_.reset();
+      out_.heartbeat = false;
+      gate_clocks_ = {};
+      writes_ = 0;
+      show(in, encoder, bridge);
+    });
   }
 
   /// Advances one clock with these inputs.
-  void clock(const In& in) {
-    catch_up();
-    wave_.watch(clock_, clock_ + 1, decoder_.out().travel);
-    const bool tick = clock_ == D::clocks_per_tick - 1;
-    const std::uint8_t scene = wanted_scene(in);
-    const bool zero = tick && registers_.sets_zero();
-    const bool clear = tick && registers_.commands(D::C::command_clear_faults);
-
-    // Each block sees the other blocks' registers before the clock edge.
-    typename Supervisor<D>::In sup = supervisor_inputs(clock_);
-    sup.tick = tick;
-    ask(in, &sup);
-    const bool open = supervisor_.out().gates_enable;
-    if (renders_law() && in.law_late && open) sup.trips |= fault_bit(Fault::engine);
-    if (in.axis_fault && open) sup.trips |= fault_bit(Fault::axis);
-    if (registers_.out().stop) sup.trips |= fault_bit(Fault::stop);
-    sup.stop = in.stop;
-    sup.clear_faults = clear;
-    sup.kick = tick && registers_.commands(D::C::command_kick);
-    sup.encoder_error = decoder_.out().illegal;
-    if (registers_.out().word_error) sup.trips |= fault_bit(Fault::word);
-    if (clock_ == core_steps::clock_of(T::channel)) {
-      if (monitor_.trips()) sup.trips |= fault_bit(Fault::channel);
-      if (monitor_.index_trips()) sup.trips |= fault_bit(Fault::index);
-    }
-    if (loop_.trips(open)) sup.trips |= fault_bit(Fault::current);
-    if (absolute_state(decoder_) != 0 && open) sup.trips |= fault_bit(Fault::encoder);
-    auto pwm = bridge_inputs(open, bridge_duty());
-    pwm.clear = supervisor_.stopped(in.stop);
-    out_.snapshot_valid = false;
-    out_.word_valid = ReadBack && core_steps::stores_word(clock_);
-    core_steps::for_each_step_of(clock_, [&](Step step) { take<true>(step, in, decoder_.out()); });
-    if (self_test_.failed()) sup.trips |= fault_bit(Fault::self_test);
-    if constexpr (kLoop) loop_.clock(loop_inputs(in, clear && !sup.arm_request()));
-    supervisor_.clock(sup);
-    const bool held = out_.armed || supervisor_.out().armed;
-    const auto d = decoder_inputs(in, zero, clear && !sup.arm_request(), open);
-    if (!decoder_.settled(d)) decoder_.clock(d);
-
-    const bool committed = tick && registers_.out().reg_busy;
-    const int written = registers_.parameter_waiting(held);
-    if (tick && (registers_.restarts(out_.scene) || (renders_law() && in.law_restart))) {
-      wave_.restart();
-    }
-    registers_.clock(register_inputs(in, tick, held));
-    if (tick) {
-      out_.scene = scene;
-      if (committed) {
-        ++writes_;
-        if (written >= 0) take_word(written);
-      }
-    }
-    gates_.advance(pwm, 1);
-    advance_clock(1);
-    show();
+  void clock(const CoreIn& in) {
+    sockets([&](auto& encoder, auto& bridge) { clock(in, encoder, bridge); });
   }
 
   /// Advances `clocks` clocks with the inputs held; reg_write and set_zero must be low. Equals so
-  /// many calls of clock(), but goes from event to event where only the wave acts. `on_snapshot()`
-  /// is called whenever out() holds a valid snapshot.
+  /// many calls of clock(). `on_snapshot()` is called whenever out() holds a valid snapshot.
   template <class OnSnapshot>
-  void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot);
+  void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+    bool by_clock = true;
+    while (clocks > 0) {
+      if (clocks >= clocks_per_tick_ && tick(in, on_snapshot)) {
+        clocks -= clocks_per_tick_;
+        by_clock = false;
+        continue;
+      }
+      by_clock = true;
+      do {
+        clock(in);
+        if (out_.snapshot_valid) on_snapshot();
+      } while (--clocks > 0 && clock_of_tick() != 0);
+    }
+    if (!by_clock) show_end();
+  }
 
-  bool calm(const In& in, std::int64_t clocks) const;
+  /// Whether, with the inputs held, the next `clocks` clocks change neither the duty in force nor
+  /// the gate enable, and give no snapshot; a caller that needs nothing else may then compute them
+  /// later. May return false when true would hold.
+  bool calm(const CoreIn& in, std::int64_t clocks) const {
+    if (!whole_ || clock_of_tick() != 0 || clocks >= axis_.duty_clock() ||
+        h_bridge().clocks_to_duty() < clocks) {
+      return false;
+    }
+    return out_.gates_enable ? !may_trip(in) : out_.duty_active == 0;
+  }
   /// Whether something could close the gates before the tick ends, with the inputs held. May return
   /// true when false would hold.
-  bool may_trip(const In& in) const;
-
-  /// Fault injection: inverts a bit of the parameter RAM, see Registers::flip(); between two ticks.
-  void flip(int address, int bit) {
-    registers_.flip(address, bit);
-    take_word(address);
+  bool may_trip(const CoreIn& in) const {
+    return !whole_ || !quadrature().calm(in, axis_.encoder()) ||
+           axis_.may_trip({quadrature().out(), h_bridge().out(), in});
   }
 
-  /// Fault injection: inverts a held control bit, see Registers::flip_control().
-  void flip_control(int bit) { registers_.flip_control(bit); }
+  /// Fault injection: inverts a bit of a word of the parameter RAM, or from bit 32 on of its check;
+  /// between two ticks.
+  void flip(int address, int bit) { axis_.flip(address, bit); }
+  /// Fault injection: inverts a bit of the control word.
+  void flip_control(int bit) { axis_.flip_control(bit); }
 
-  const Out& out() const { return out_; }
-  /// Whether run() stores the words of every tick, or only of those that a host can read back.
-  void keep_words(bool keep) { keep_words_ = keep; }
-  /// A word of the running tick's snapshot by its slot; all are valid when on_snapshot() is called.
-  std::uint32_t word(int slot) const { return registers_.running_word(slot); }
+  const CoreOut& out() const { return out_; }
+  /// A word of the running tick's snapshot by its slot; all are there when on_snapshot() is called.
+  /// Between two ticks of the last one's.
+  std::uint32_t word(int slot) const {
+    if (!out_.snapshot_valid) return axis_.word(slot);
+    return axis::Snapshot::at(slot, axis_out(CoreIn{}).snapshot);
+  }
   /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo, c_hi, c_lo.
-  GateCounts gate_clocks() const { return gates_.on_clocks(); }
+  GateCounts gate_clocks() const { return whole_ ? h_bridge().gate_clocks() : gate_clocks_; }
   /// Of three phases: clocks of this PWM period in which leg 0, 1 or 2 is to be high; else 0.
-  int on_time(std::size_t leg) const { return gates_.on_time(leg); }
-  /// Free-running count at the start of the running wave.
-  std::int16_t sampled_travel() const { return wave_.sampled_travel(); }
-  /// Result of the self-test, as in the status word.
-  SelfTestResult self_test_result() const { return self_test_.result(); }
-  bool testing() const { return self_test_.busy(out_.armed); }
-  /// For the other axes: whether this axis asks to be armed in the next clock (arm_request), and
-  /// whether nothing refuses its request (ready).
-  bool arm_request(const In& in) const;
+  int on_time(std::size_t leg) const {
+    return std::visit([leg](const auto& bridge) { return bridge.on_time(leg); }, bridge_);
+  }
+  /// Free-running count at the start of the tick.
+  std::int16_t sampled_travel() const { return axis_.blocks().travel; }
+  SelfTestResult self_test_result() const {
+    return static_cast<SelfTestResult>(axis_.blocks().safety.self_test.result());
+  }
+  bool testing() const { return axis_.blocks().safety.self_test.busy(out_.armed); }
+  /// For the other axes: whether this axis asks to be armed in the next clock, and whether nothing
+  /// refuses its request.
+  bool arm_request(const CoreIn& in) const { return safe(in).arm_request; }
+  bool ready() const { return safe(CoreIn{}).ready; }
+  /// Whether the next clock samples the position and a program's torque, or is the last of its
+  /// tick.
+  bool samples() const { return axis_.blocks().ticks.sample; }
+  bool last() const { return axis_.blocks().ticks.last; }
   /// Whether in the next clock position, velocity and tau_hat are those of this tick.
-  bool measured() const { return clock_ == after(T::tau_hat); }
+  bool measured() const { return axis_.tick().tau_hat; }
   /// Whether the position becomes 0 in the next clock.
-  bool zeroed() const { return clock_ == D::clocks_per_tick - 1 && registers_.sets_zero(); }
-  bool ready() const;
+  bool zeroed() const { return axis_.zeroed(); }
   /// Whether no write or command waits for the end of the tick.
-  bool at_rest() const { return registers_.at_rest(); }
+  bool at_rest() const { return axis_.blocks().host.registers.rests(false, false); }
   /// Register writes carried out so far.
   std::int64_t writes() const { return writes_; }
+  /// The clock of a tick in which the duty is new, in the scene of this tick.
+  int duty_clock() const { return axis_.duty_clock(); }
   /// The next clock's number in its tick, 0 .. clocks_per_tick - 1.
-  int clock_of_tick() const { return clock_; }
+  int clock_of_tick() const { return axis_.clock_of_tick(); }
+
+  const axis::Axis& axis() const { return axis_; }
+  /// For comparisons: every output of the axis with these inputs.
+  axis::Axis::Out axis_out(const CoreIn& in) const {
+    return at_axis<axis::Axis::Out>(
+        in, [this](const axis::Axis::In& to_axis) { return axis_.out(to_axis); });
+  }
+  int clocks_per_tick() const { return clocks_per_tick_; }
+  /// Ticks that run() took as a whole, and those in which something happened.
+  std::int64_t whole_ticks() const { return whole_ticks_; }
+  std::int64_t thrown_ticks() const { return thrown_ticks_; }
 
  private:
-  using Step = Map::Step;
-  using T = Map::T;
-  static constexpr bool kAbsolute = D::absolute_encoder != 0;
-  using Decoder = DecoderOf<D>;
-  using Bridge = BridgeOf<D>;
-  /// The clock of the tick after the one of wave clock t.
-  static constexpr int after(int t) { return core_steps::clock_of(t) + 1; }
-  static constexpr int kSnapshot = core_steps::clock_of(T::snapshot);
-  static_assert(kSnapshot < D::clocks_per_tick, "a tick's snapshot lies in it");
-  static constexpr int kNever = 1 << 30;
-  /// First clock of the tick in which the supervisor looks at its watchdog.
-  static constexpr int kWatchdogOperand = core_steps::clock_of(Map::W::watchdog_ticks) - 1;
+  using EncoderSocket = std::variant<axis::Quadrature, axis::QuadratureHall, axis::Absolute>;
+  using BridgeSocket =
+      std::variant<axis::HBridge, axis::HBridgeCurrent, axis::ThreePhase, axis::ThreePhaseCurrent>;
 
-  template <int Bit, int Width>
-  static unsigned field(std::uint32_t word) {
-    return (word >> Bit) & ((1u << Width) - 1);
+  static EncoderSocket encoder_of(const axis::Design& d) {
+    if (d["ABSOLUTE_ENCODER"] != 0) return axis::Absolute(d);
+    if (d["HALL"] != 0) return axis::QuadratureHall(d);
+    return axis::Quadrature(d);
   }
-  static bool bit(std::uint32_t word, int n) { return ((word >> n) & 1u) != 0; }
-  static std::int64_t factor(std::uint32_t param) {
-    return param & ((1u << D::coefficient_bits) - 1);
-  }
-
-  void take_word(int address) {
-    wave_.set_word(address, registers_.parameter(address));
-    note_supervisor_words();
-  }
-  void note_supervisor_words() {
-    using A = typename D::A;
-    const auto word = [this](int address) { return registers_.parameter(address); };
-    supervisor_words_ = {
-        word(A::inverse_resistance), word(A::emf_over_resistance), word(A::nominal_current_squared),
-        word(A::overspeed),          word(A::i2t_budget),          word(A::polarity_speed),
-        word(A::polarity_current),   word(A::polarity_ticks),      word(A::watchdog_ticks)};
-    self_test_words_ = {word(A::self_test_quiet), word(A::self_test_pulse),
-                        word(A::self_test_arms)};
-  }
-
-  Mode mode() const {
-    return static_cast<Mode>(
-        field<D::C::control_mode, D::C::control_mode_width>(registers_.out().control));
-  }
-
-  bool host() const { return bit(registers_.out().control, D::C::control_host); }
-  /// The requests to the supervisor: who has control, and what is requested.
-  void ask(const In& in, typename Supervisor<D>::In* sup) const;
-  /// The supervisor's wave inputs in clock c of the tick; its parameter words come from the RAM in
-  /// the order of the bus.
-  typename Supervisor<D>::In supervisor_inputs(int c) const {
-    using M = Map::M;
-    typename Supervisor<D>::In sup;
-    const int t = c - Map::first_wave_clock;
-    if (t < 0 || t >= Map::wave_length) return sup;
-    sup.wave = std::uint64_t{1} << t;
-    sup.param = registers_.parameter(t);
-    sup.velocity = static_cast<std::int32_t>(out_.velocity);
-    sup.current_ref = out_.current_ref;
-    if (t == M::inverse_resistance) sup.product = operand_v_;
-    if (t == M::emf_over_resistance) sup.product = operand_w_;
-    if (t == M::current_square) {
-      std::int64_t estimate = supervisor_.out().current_estimate;
-      if constexpr (kLoop) estimate = loop_.heat_current();
-      sup.product = estimate * estimate;
+  static BridgeSocket bridge_of(const axis::Design& d) {
+    const bool loop = d["CURRENT_LOOP"] != 0;
+    if (d["PHASES"] == 3) {
+      return loop ? BridgeSocket(axis::ThreePhaseCurrent(d)) : BridgeSocket(axis::ThreePhase(d));
     }
-    return sup;
+    return loop ? BridgeSocket(axis::HBridgeCurrent(d)) : BridgeSocket(axis::HBridge(d));
+  }
+  // Of a core that can take a tick as a whole.
+  axis::Quadrature& quadrature() { return *std::get_if<axis::Quadrature>(&encoder_); }
+  const axis::Quadrature& quadrature() const { return *std::get_if<axis::Quadrature>(&encoder_); }
+  axis::HBridge& h_bridge() { return *std::get_if<axis::HBridge>(&bridge_); }
+  const axis::HBridge& h_bridge() const { return *std::get_if<axis::HBridge>(&bridge_); }
+
+  template <class F>
+  void sockets(F&& f) {
+    if (whole_) return f(quadrature(), h_bridge());
+    std::visit(f, encoder_, bridge_);
+  }
+  template <class Result, class F>
+  Result at_axis(const CoreIn& in, F&& f) const {
+    return std::visit(
+        [&](const auto& encoder, const auto& bridge) -> Result {
+          return f(axis::Axis::In{encoder.out(), bridge.out(), in});
+        },
+        encoder_, bridge_);
+  }
+  axis::Safe safe(const CoreIn& in) const {
+    if (whole_) return axis_.safe({quadrature().out(), h_bridge().out(), in});
+    return at_axis<axis::Safe>(
+        in, [this](const axis::Axis::In& to_axis) { return axis_.safe(to_axis); });
   }
 
-  static constexpr bool kLoop = D::current_loop != 0;
-  std::int16_t bridge_duty() const;
-  auto loop_inputs(const In& in, bool clear) const;
-
-  static constexpr bool kLaw = scene_built<D>(Map::S::law);
-  bool renders_law() const { return kLaw && out_.scene == Map::S::law; }
-
-  /// One step, except the supervisor's. Read: the host may read the snapshot's words.
-  template <bool Read>
-  [[gnu::always_inline]] void take(Step step, const In& in, const QuadDecoder::Out& decoded) {
-    using R = Map::R;
-    const auto keep = [this](int slot, auto word) {
-      if (!Read || !ReadBack) return;
-      out_.word_slot = static_cast<std::uint8_t>(slot);
-      out_.word_data = static_cast<std::uint32_t>(word);
-      registers_.write_snapshot(slot, out_.word_data);
-    };
-    switch (step) {
-      case Step::read_tick:
-        return keep(R::tick, out_.tick_count);
-      case Step::read_position:
-        return keep(R::position, out_.position);
-      case Step::read_status:
-        return keep(R::status, status(in, decoded.error));
-      case Step::read_faults:
-        return keep(R::faults, faults());
-      case Step::read_velocity:
-        return keep(R::velocity, out_.velocity);
-      case Step::read_index:
-        return keep(R::index, decoded.index_position);
-      case Step::read_encoder:
-        return keep(R::encoder, std::uint32_t{decoded.rejected_count} << 16 | decoded.error_count);
-      case Step::read_tau_hat:
-        return keep(R::tau_hat, out_.tau_hat);
-      case Step::read_tau_ref:
-        return keep(R::tau_ref, out_.tau_ref);
-      case Step::read_current_ref:
-        return keep(R::current_ref, wave_.current());
-      case Step::read_voltage:
-        return keep(R::voltage, wave_.applied());
-      case Step::read_duty:
-        return keep(R::duty, wave_.duty());
-      case Step::operand_inverse_resistance:
-        operand_v_ = out_.voltage * factor(supervisor_words_.inverse_resistance);
-        return;
-      case Step::operand_emf_over_resistance:
-        operand_w_ = out_.velocity * factor(supervisor_words_.emf_over_resistance);
-        return;
-      case Step::snapshot:
-        out_.snapshot_valid = true;
-        return;
-      case Step::levels:
-        monitor_.tick(decoded.levels, out_.tick_count, decoded.index_wrong, decoded.count);
-        wave_.set_frozen(monitor_.chatters());
-        return;
-      case Step::hold:
-        hold_.tick(out_.armed, moved(decoder_, monitor_), wave_.beyond(D::A::hold_torque),
-                   out_.tick_count, registers_.parameter(D::A::hold_time));
-        wave_.set_derated(hold_.derated());
-        return;
-      case Step::self_test:
-        self_test_.turn(out_.armed, mode() == Mode::voltage, out_.tick_count, self_test_words_,
-                        in.axis_waits);
-        return;
-      case Step::law_torque:
-        if (kLaw) wave_.program(in.law_late ? 0 : in.law_torque);
-        return;
-      case Step::sample:
-        self_test_.sample(static_cast<std::uint16_t>(decoded.travel >> D::self_test_drop));
-        [[fallthrough]];
-      default:
-        wave_.take(step, decoded.position, decoded.travel, mode(), pulse(in), out_);
+  template <class Encoder, class Bridge>
+  void clock(const CoreIn& in, Encoder& encoder, Bridge& bridge) {
+    constexpr bool is_whole =
+        std::is_same_v<Encoder, axis::Quadrature> && std::is_same_v<Bridge, axis::HBridge>;
+    using Words = axis::Words<std::int64_t>;  // as before this clock
+    const std::conditional_t<is_whole, const Words&, Words> p = axis_.words();
+    writes_ += axis_.writes();
+    if (beats_) {
+      heartbeat_.clock(axis_.tick(), axis_.blocks().safety.latch.first);
+      out_.heartbeat = heartbeat_.out();
     }
-  }
-
-  typename Registers<D, ReadBack>::In register_inputs(const In& in, bool tick, bool held) const;
-  typename Decoder::In decoder_inputs(const In& in, bool zero, bool clear, bool open = false) const;
-  auto bridge_inputs(bool enable, std::int16_t duty) const;
-  std::uint8_t wanted_scene(const In& in) const;
-  TestPulse pulse(const In& in) const;
-  std::uint32_t status(const In& in, bool encoder_error) const;
-  std::uint32_t faults() const;
-
-  /// Clocks of a tick that are computed at once.
-  struct Stretch {
-    int from, to;
-    int gates_at;  ///< the clock that the gates have reached
-    int open;      ///< the gates are enabled before this clock
-    bool quiet;    ///< only a fault changes the gates: they are advanced at the end
-    void close(int clock) {
-      open = clock;
-      quiet = false;
+    const axis::Axis::ToSockets to = axis_.clock({encoder.out(), bridge.out(), in});
+    const axis::Rotor rotor = encoder.rotor();
+    encoder.clock(in, to.encoder, p);
+    bridge.clock(in, to.drive, p, rotor);
+    if constexpr (!is_whole) {
+      for (std::size_t g = 0; g < gate_clocks_.size(); ++g) {
+        gate_clocks_[g] += bridge.gates() >> g & 1;
+      }
     }
-  };
-  Stretch stretch(int from, int to) const {
-    const bool enabled = supervisor_.out().gates_enable;
-    return {from, to, from, enabled ? kNever : 0, gates_.quiet_for(to - from, enabled)};
+    show(in, encoder, bridge);
   }
 
-  /// Whether the supervisor is between its steps; its registers then hold values that only clock()
-  /// continues from.
-  bool amid_supervisor() const {
-    return clock_ > core_steps::clock_of(T::estimate_part) && clock_ < after(T::polarity);
-  }
-  bool can_pass(const In& in) const;
-  bool outside_trips(const In& in) const;
-  static int next_look_at_decoder(int from);
-  template <bool Read, class OnSnapshot>
-  void pass_tick(const In& in, OnSnapshot&& on_snapshot);
+  /// Takes a tick as a whole. False: nothing has changed.
   template <class OnSnapshot>
-  int pass(const In& in, int from, int to, OnSnapshot&& on_snapshot);
-  template <bool Read, class OnSnapshot>
-  void take_in(Stretch& s, Step step, const In& in, const QuadDecoder::Out& decoded,
-               OnSnapshot&& on_snapshot);
-  void end_of_tick(const In& in);
-  int advance_decoder(const In& in, int from, int to);
-  void gates_to(Stretch& s, int to);
-  void finish(const In& in, Stretch& s);
-  void catch_up();
-
-  void advance_clock(int clocks) {
-    clock_ += clocks;
-    if (clock_ < D::clocks_per_tick) return;
-    clock_ = 0;
-    ++out_.tick_count;
+  bool tick(const CoreIn& in, OnSnapshot&& on_snapshot) {
+    if (!whole_) return false;
+    using axis::TickCounter;
+    axis::Quadrature& encoder = quadrature();
+    axis::HBridge& bridge = h_bridge();
+    const axis::Axis::In begin{encoder.out(), bridge.out(), in};
+    if (!axis_.ordinary(begin)) return false;
+    // M/T counts the clocks from edge to edge.
+    if (axis_.laws().spans.used && !encoder.calm(in, axis_.encoder())) return false;
+    const axis::Position* sampled =
+        encoder.still(in.encoder)
+            ? encoder.tick(axis_.blocks().ticks.count)
+            : encoder.tick(in, axis_.encoder(), TickCounter::sample_clock, clocks_per_tick_);
+    axis::Drive drive = axis_.drive({}, axis_.gates_clear(begin), false);
+    const axis::Position& position = sampled != nullptr ? *sampled : encoder.out();
+    const axis::Axis::In to_axis{position, bridge.out(), in};
+    const bool edges = sampled != &encoder.out() && axis_.laws().spans.used;
+    axis::Values v;
+    if (sampled == nullptr || edges || !axis_.tick(to_axis, v)) {
+      encoder.undo();
+      ++thrown_ticks_;
+      return false;
+    }
+    show_chain(v);
+    const int duty_clock = axis_.duty_clock();
+    const bool still = bridge.pass(drive, clocks_per_tick_);
+    if (!still) {
+      bridge.run(drive, duty_clock);
+      show_gates(bridge);
+    }
+    out_.snapshot_valid = true;
+    out_.word_valid = false;
+    if (reads_) {
+      out_.word_slot = Map::R::current_ref;
+      out_.word_data = static_cast<std::uint32_t>(out_.current_ref);
+    }
+    on_snapshot();
+    out_.snapshot_valid = false;
+    if (!still) {
+      drive.duty = out_.duty;
+      bridge.run(drive, clocks_per_tick_ - duty_clock);
+      show_gates(bridge);
+    }
+    axis_.end_tick(to_axis, v, reads_);
+    ++whole_ticks_;
+    return true;
+  }
+  /// After such ticks: what has changed with the end of the last one.
+  void show_end() {
+    const axis::Axis::Blocks& q = axis_.blocks();
+    constexpr unsigned closed = 1U << Map::L::gates_closed;
+    out_.tick_count = q.ticks.count;
+    out_.scene = static_cast<std::uint8_t>(q.host.scene);
+    out_.armed = q.safety.arming.armed();
+    out_.gates_enable = q.safety.arming.open();
+    out_.limits =
+        static_cast<std::uint16_t>((out_.limits & ~closed) | (out_.gates_enable ? 0 : closed));
+    if (reads_) {
+      out_.reg_rdata = axis_.read_data();
+      out_.word_slot = Map::R::status;
+      out_.word_data = q.host.snapshot.word.data;
+    }
+  }
+  /// The outputs after a clock.
+  template <class Encoder, class Bridge>
+  void show(const CoreIn& in, const Encoder& encoder, const Bridge& bridge) {
+    const axis::Axis::Blocks& q = axis_.blocks();
+    show_chain(axis_.values({encoder.out(), bridge.out(), in}, q.safety.levels(axis_.laws())));
+    out_.snapshot_valid = axis_.tick().duty;
+    out_.reg_busy = q.host.registers.busy();
+    if (reads_) {
+      out_.reg_rdata = axis_.read_data();
+      out_.word_valid = q.host.snapshot.word.valid;
+      out_.word_slot = static_cast<std::uint8_t>(q.host.snapshot.word.place);
+      out_.word_data = q.host.snapshot.word.data;
+    }
+    show_gates(bridge);
+    out_.serial = static_cast<std::uint8_t>(encoder.lines());
+    if constexpr (std::is_same_v<Bridge, axis::HBridgeCurrent> ||
+                  std::is_same_v<Bridge, axis::ThreePhaseCurrent>) {
+      out_.current = bridge.out().current;
+      out_.current_clock = bridge.modulator_clock();
+    }
+  }
+  void show_chain(const axis::Values& v) {
+    const axis::Safety& safety = axis_.blocks().safety;
+    out_.tick_count = v.tick;
+    out_.position = v.position;
+    out_.velocity = v.velocity;
+    out_.tau_hat = static_cast<std::int32_t>(v.tau_hat);
+    out_.tau_ref = static_cast<std::int32_t>(v.tau_ref);
+    out_.current_ref = static_cast<std::int32_t>(v.current);
+    out_.voltage = static_cast<std::int32_t>(v.voltage);
+    out_.duty = static_cast<std::int16_t>(v.duty);
+    out_.scene = static_cast<std::uint8_t>(v.scene);
+    out_.limits = static_cast<std::uint16_t>(v.limits);
+    out_.faults = safety.latch.faults;
+    out_.first_fault = static_cast<std::uint8_t>(safety.latch.first);
+    out_.armed = safety.arming.armed();
+    out_.gates_enable = safety.arming.open();
+  }
+  template <class Bridge>
+  void show_gates(const Bridge& bridge) {
+    out_.duty_active = bridge.out().duty_active;
+    out_.gates = static_cast<std::uint8_t>(bridge.gates());
   }
 
-  /// Sets the outputs after the clock edge.
-  void show() {
-    show_state();
-    out_.reg_rdata = registers_.out().reg_rdata;
-    out_.reg_busy = registers_.out().reg_busy;
-  }
-  void show_state() {
-    out_.armed = supervisor_.out().armed;
-    out_.gates_enable = supervisor_.out().gates_enable;
-    out_.faults = supervisor_.out().faults;
-    out_.first_fault = supervisor_.out().first_fault;
-    out_.duty_active = gates_.duty_active();
-    out_.gates = gates_.bits();
-    if constexpr (kLoop) loop_.show(&out_);
-    if constexpr (kAbsolute) out_.serial = decoder_.serial();
-    out_.limits = wave_.limits(out_.gates_enable);
-  }
-
-  Registers<D, ReadBack> registers_;
-  Decoder decoder_{0, static_cast<std::uint32_t>(D::index_counts)};
-  CoreWave<D> wave_;
-  CurrentLoop<D> loop_;
-  static EncoderMonitorLaw made_monitor() {
-    return EncoderMonitorLaw(D::edge_unit_bits, D::fast_edges != 0);
-  }
-  EncoderMonitorLaw monitor_ = made_monitor();
-  HoldTimerLaw hold_;
-  Supervisor<D> supervisor_, before_wave_;
-  typename Supervisor<D>::Words supervisor_words_;
-  SelfTestLaw self_test_;
-  SelfTestLaw::Words self_test_words_;
-  Bridge gates_{D::pwm_period, D::dead_clocks, D::shortest_clocks, D::modulation};
-  std::int64_t operand_v_ = 0, operand_w_ = 0;
-  std::int64_t writes_ = 0;
-  int clock_ = 0;       ///< clock of the tick
-  int passed_to_ = -1;  ///< the clock that a pass() has reached; -1 after a clock()
-  bool keep_words_ = false;
-  Out out_;
+  axis::Axis axis_;
+  EncoderSocket encoder_;
+  BridgeSocket bridge_;
+  axis::Heartbeat heartbeat_;
+  int clocks_per_tick_;
+  bool reads_, beats_;
+  bool whole_;  ///< the sockets can take a tick as a whole
+  GateCounts gate_clocks_{};
+  std::int64_t writes_ = 0, whole_ticks_ = 0, thrown_ticks_ = 0;
+  CoreOut out_;
 };
 
 }  // namespace feltgate
-
-#include "feltgate/core_inputs.hpp"  // IWYU pragma: export
-#include "feltgate/core_run.hpp"     // IWYU pragma: export
-#include "feltgate/core_words.hpp"   // IWYU pragma: export

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/field_oriented.sv: the currents of three phases in the rotor's frame,
+// Twin of rtl/options/field_oriented.sv: the currents of three phases in the rotor's frame,
 // their two laws, and three on-times. Its gains are those of current_control.hpp, with the voltage
 // supply/root 3 as supply. Documentation: docs/blocks/three_phase.md
 #pragma once
@@ -18,10 +18,7 @@ namespace feltgate {
 /// Bit-exact and clock-exact with the RTL.
 class FieldOriented {
  public:
-  /// LSB of full-scale current, and of a voltage of supply/root 3.
-  static constexpr std::int64_t kFullScale = 1 << kCurrentControlBits;
   static constexpr int kLatencyClocks = 261;  ///< from valid to out().valid
-  static constexpr int kBusyClocks = 349;     ///< fewest from a taken valid to the next one
   struct In {
     bool armed = false;              ///< false: voltage and integrators are 0
     bool valid = false;              ///< one clock: takes all but the last three
@@ -42,9 +39,8 @@ class FieldOriented {
     std::int32_t current_q = 0;  ///< [1,3,17] of full scale: along the axis of torque
     /// [1,1,17] of supply/root 3: whole parts of the integrators, along the axis and across it.
     std::int32_t resistive = 0, across = 0;
-    bool open = false;       ///< a phase has no current; held while armed
-    bool saturated = false;  ///< the last voltage was limited
-    std::int16_t on_a = 0;   ///< clocks of the high switch in a period, 0 to period
+    bool open = false;      ///< a phase has no current; held while armed
+    std::int16_t on_a = 0;  ///< clocks of the high switch in a period, 0 to period
     std::int16_t on_b = 0;
     std::int16_t on_c = 0;
     bool valid = false;  ///< one clock: the on-times are new
@@ -81,9 +77,6 @@ class FieldOriented {
   }
 
   const Out& out() const { return out_; }
-  /// [1,1,34] of supply/root 3: what the resistance takes along the axis of torque, and across.
-  std::int64_t integrator() const { return integrator_[1]; }
-  std::int64_t integrator_across() const { return integrator_[0]; }
 
  private:
   struct Blank {};
@@ -275,7 +268,6 @@ class FieldOriented {
     out_.on_a = static_cast<std::int16_t>(a_between ? between : upper);
     out_.on_b = static_cast<std::int16_t>(mirror_ ? leg_c : leg_b);
     out_.on_c = static_cast<std::int16_t>(mirror_ ? leg_b : leg_c);
-    out_.saturated = saturated_;
     out_.valid = true;
   }
 

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/encoder/hall_sensor.sv: three Hall lines to an electrical angle that the
-// encoder's counts carry; and the decoder of the core's twin that has it.
-// Documentation: docs/blocks/three_phase.md
+// Twin of rtl/options/hall_sensor.sv: three Hall lines to an electrical angle that the encoder's
+// counts carry. Documentation: docs/blocks/three_phase.md
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
-
-#include "feltgate/absolute_position.hpp"
-#include "feltgate/generated/map.hpp"
-#include "feltgate/quad_decoder.hpp"
 
 namespace feltgate {
 
@@ -122,50 +116,5 @@ class HallSensor {
   int glitch_, wait_ = 0, sector_ = -1, count_ = 0;  // sector_: of the angle; -1: there is none
   unsigned meta_ = 0, sync_ = 0, last_ = 0, code_ = 0, seen_ = 0;
 };
-
-/// Three Hall lines beside A, B and Z: what rtl/core/encoder/encoder.sv has with the option HALL.
-class HallDecoder : public QuadDecoder {
- public:
-  struct In : QuadDecoder::In {
-    std::uint8_t hall = 0;
-    bool gates_enable = false;
-    int wave_clock = -1;     ///< clock of the wave
-    std::uint32_t word = 0;  ///< on the parameter bus, if it is one of commutation
-  };
-  using QuadDecoder::QuadDecoder;
-
-  void reset() {
-    QuadDecoder::reset();
-    hall_.reset();
-    gain_ = 0;
-  }
-  void clock(const In& in) {
-    hall_.clock(
-        {in.hall, static_cast<std::uint8_t>(count() & 3), gain_, in.gates_enable, in.clear_error});
-    if (in.wave_clock == Map::W::commutation_gain) gain_ = in.word;
-    QuadDecoder::clock(in);
-  }
-  /// 2^-32 electrical turn.
-  std::uint32_t angle() const { return hall_.out().angle; }
-  /// faults.absolute: bit 0 all lines alike, 1 apart, 3 a sector passed over, 5 no sector yet.
-  std::uint32_t state() const {
-    const HallSensor::Out& o = hall_.out();
-    return static_cast<std::uint32_t>((o.faults & 3u) | (o.faults & HallSensor::kPassed) << 1 |
-                                      o.waits << (Map::C::faults_absolute_width - 1));
-  }
-  /// No clock may be skipped.
-  static bool settled(const In&) { return false; }
-
- private:
-  HallSensor hall_;
-  std::uint32_t gain_ = 0;
-};
-
-inline std::uint32_t absolute_state(const HallDecoder& d) { return d.state(); }
-
-/// The decoder of design D.
-template <class D>
-using DecoderOf = std::conditional_t<D::absolute_encoder != 0, AbsolutePosition<D>,
-                                     std::conditional_t<D::hall != 0, HallDecoder, QuadDecoder>>;
 
 }  // namespace feltgate

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "feltgate/generated/link.hpp"
@@ -19,8 +21,9 @@ template <int Rows = 1 << LinkMap::rows_log2, bool Events = true>
 class LinkCapture {
  public:
   struct In {
-    bool word_valid = false;  ///< word_data is the snapshot's word of slot word_slot
-    std::uint8_t word_slot = 0;
+    bool word_valid =
+        false;  ///< word_data is the snapshot's word of this number; the status ends a tick
+    std::uint8_t word_number = 0;
     std::uint32_t word_data = 0;
     std::uint16_t addr = 0;
     std::uint32_t wdata = 0;
@@ -33,8 +36,12 @@ class LinkCapture {
   };
   enum class State : std::uint8_t { idle, fill, wait, rest, done };
 
-  /// Also removes all rows.
-  void reset() { *this = LinkCapture(); }
+  /// Also removes all rows; the memory keeps its words.
+  void reset() {
+    std::vector<std::uint32_t> memory = std::move(memory_);
+    *this = LinkCapture();
+    memory_ = std::move(memory);
+  }
   const Out& out() const { return out_; }
   State state() const { return state_; }
   /// Whether a capture is in progress.
@@ -47,7 +54,7 @@ class LinkCapture {
     if (ends_) end_of_tick();
     ends_ = false;
     if (in.event_valid) event(in.event_number);
-    if (in.word_valid) word(in.word_slot, in.word_data);
+    if (in.word_valid) word(in.word_number, in.word_data);
     if (in.write) write(in.addr, in.wdata);
   }
 
@@ -58,12 +65,13 @@ class LinkCapture {
               ((level_ & LinkMap::any_event) != 0 || word == (level_ & (LinkMap::any_event - 1)));
   }
 
-  /// A whole tick at once: its words in the order of their numbers, with no register access in
-  /// between. Equals so many calls of clock(), up to the clock after the last word.
+  /// A whole tick at once: its words by number, with no register access in between. Equals so many
+  /// calls of clock(), up to the clock after the last word.
   void tick(const std::array<std::uint32_t, LinkMap::snapshot_words>& words) {
     for (std::size_t k = 0; k < words.size(); ++k) {
-      word(static_cast<std::uint8_t>(LinkMap::slots[k]), words[k]);
+      if (k != LinkMap::N::status) word(static_cast<std::uint8_t>(k), words[k]);
     }
+    word(LinkMap::N::status, words[LinkMap::N::status]);
     ends_ = false;
     end_of_tick();
   }
@@ -86,28 +94,27 @@ class LinkCapture {
     return static_cast<std::int32_t>(word) >= static_cast<std::int32_t>(level);
   }
 
-  void word(std::uint8_t slot, std::uint32_t data) {
-    if (slot == LinkMap::slots[0]) {
-      number_ = 0;
-      begin_tick();
+  void word(std::uint8_t number, std::uint32_t data) {
+    if (!within_) begin_tick();
+    within_ = number != LinkMap::N::status;
+    ends_ = !within_;
+    if (number == trigger_word_) look(data);
+    const bool wanted = (words_ >> number & 1u) != 0;
+    const std::uint32_t column = chosen_below(number);
+    if (runs() && taking_ && wanted && column < kColumns) {
+      if (memory_.empty()) memory_.resize(kRows * kColumns);
+      memory_[row_ * kColumns + column] = data;
     }
-    if (number_ != kNone) {
-      if (number_ == trigger_word_) look(data);
-      const bool wanted = (words_ >> number_ & 1u) != 0;
-      if (runs() && taking_ && wanted && column_ < kColumns) {
-        if (memory_.empty()) memory_.resize(kRows * kColumns);
-        memory_[row_ * kColumns + column_] = data;
-        ++column_;
-      }
-      ends_ = number_ == kWords - 1;
-      ++number_;
-    }
+  }
+  /// A row has the chosen words by number.
+  std::uint32_t chosen_below(unsigned number) const {
+    const std::bitset<kWords> chosen(words_ & ((1u << number) - 1));
+    return static_cast<std::uint32_t>(chosen.count());
   }
 
   void begin_tick() {
     seen_ = true;
     taking_ = runs() && ticks_ == 0;
-    column_ = 0;
     if (taking_ && rows_ == kRows) --rows_;  // the oldest row is overwritten
     if (ticks_ != 0) {
       --ticks_;
@@ -135,7 +142,7 @@ class LinkCapture {
     const std::uint32_t rest = kRows - pre_ - (taking_ ? 1u : 0u);
     if (taking_) {
       taking_ = false;
-      columns_ = column_;
+      columns_ = at_most(chosen_below(kWords), kColumns);
       row_ = (row_ + 1) % kRows;
       ++rows_;
       --left_;
@@ -232,11 +239,11 @@ class LinkCapture {
 
   State state_ = State::idle;
   std::vector<std::uint32_t> memory_;  ///< empty before the first word
-  unsigned number_ = kNone;            ///< number of the next word
   std::uint32_t words_ = 0, pre_ = 0, period_ = 0, trigger_word_ = 0, mode_ = 0, level_ = 0;
   std::uint32_t before_ = 0;            ///< the trigger's word, one tick ago
   std::uint32_t ticks_ = 0, left_ = 0;  ///< ticks before the next row; rows left in this state
-  std::uint32_t row_ = 0, rows_ = 0, column_ = 0, columns_ = 0;
+  std::uint32_t row_ = 0, rows_ = 0, columns_ = 0;
+  bool within_ = false;  ///< amid the words of a tick
   bool known_ = false, hit_ = false, hand_ = false, seen_ = false, taking_ = false, ends_ = false;
   bool event_ = false;  ///< since the end of the last tick
   bool ran_ = false;    ///< state before this clock

@@ -19,10 +19,13 @@ struct LinkBuilt {
   bool simulated = false;      ///< sets the bit `features_simulated`
   int board = 0;               ///< the word `board`
   std::uint32_t features = 0;  ///< further bits of the word `features`
+  // Of the design.
+  std::uint32_t design_crc = 0, clock_hz = 0, clocks_per_tick = 0;
+  bool engine = false;
 };
 
-/// The link's port for design D with N axes at its register port.
-template <class D, int N = 1>
+/// The link's port with N axes at its register port.
+template <int N = 1>
 class LinkPort {
  public:
   struct In {
@@ -46,7 +49,10 @@ class LinkPort {
     FrameByte reply;
   };
 
-  explicit LinkPort(LinkBuilt built = {}) : built_(built) {}
+  explicit LinkPort(LinkBuilt built = {})
+      : built_(built),
+        engine_(built.engine ? 1 : 0),
+        port_(static_cast<std::uint16_t>(engine_ << LinkMap::map_bits | (LinkMap::words - 1))) {}
   void reset() { *this = LinkPort(built_); }
 
   /// Outputs in a clock with these inputs; some outputs depend on them directly.
@@ -57,13 +63,13 @@ class LinkPort {
     const std::uint16_t reading = read_address();
     o.reg_addr =
         (d.host_write    ? in.request.address
-         : d.panel_write ? static_cast<std::uint16_t>(D::C::command | clear_axis_ << kAxisBit)
+         : d.panel_write ? static_cast<std::uint16_t>(Map::C::command | clear_axis_ << kAxisBit)
                          : reading) &
-        kPort;
+        port_;
     o.reg_write = d.host_write || d.panel_write;
-    constexpr std::uint32_t bits = (1U << D::C::command_width) - 1;
+    constexpr std::uint32_t bits = (1U << Map::C::command_width) - 1;
     o.reg_wdata = d.host_write ? in.request.data
-                               : (in.request.data & ~bits) | 1U << D::C::command_clear_faults;
+                               : (in.request.data & ~bits) | 1U << Map::C::command_clear_faults;
     o.write = d.link_write;
     o.addr = d.link_write ? in.request.address : reading;
     o.wdata = in.request.data;
@@ -111,7 +117,7 @@ class LinkPort {
         word_ = word;
         if (clocks_ == (of_engine(read_address()) ? kEngineClocks : 3)) {
           state_ = State::bytes;
-          address_ = (address_ + 1U) & ((window << kEngine) - 1);
+          address_ = (address_ + 1U) & ((window << engine_) - 1);
           left_ = (left_ - 1) & 127;
           clocks_ = 0;
         } else {
@@ -143,11 +149,7 @@ class LinkPort {
     bool repeats = false, host_write = false, link_write = false, panel_write = false;
   };
 
-  static constexpr unsigned kEngine = D::engine != 0 ? 1 : 0;
   static constexpr unsigned window = 1U << LinkMap::map_bits;
-  /// Bits of an address that reach the register port: the engine's words have the addresses of the
-  /// core's words with one more bit in front.
-  static constexpr std::uint16_t kPort = kEngine << LinkMap::map_bits | (LinkMap::words - 1);
   static constexpr int kAxisBit = 10;       ///< of an address; the number of the axis is above
   static constexpr int kEngineClocks = 40;  ///< clocks to read a word of the engine
   static bool of_port(std::uint16_t address) { return address % window < LinkMap::words; }
@@ -163,7 +165,7 @@ class LinkPort {
     return d;
   }
   std::uint16_t read_address() const {
-    return static_cast<std::uint16_t>(status_ ? D::C::read_status | status_axis() << kAxisBit
+    return static_cast<std::uint16_t>(status_ ? Map::C::read_status | status_axis() << kAxisBit
                                               : address_);
   }
   /// Axis of the write that the reply answers; 0 for a write to something else.
@@ -184,11 +186,11 @@ class LinkPort {
       case A::version:
         return LinkMap::version;
       case A::design_crc:
-        return D::design_crc;
+        return built_.design_crc;
       case A::clock_hz:
-        return static_cast<std::uint32_t>(D::clock_hz);
+        return built_.clock_hz;
       case A::clocks_per_tick:
-        return static_cast<std::uint32_t>(D::clocks_per_tick);
+        return built_.clocks_per_tick;
       case A::features:
         return built_.features | (built_.simulated ? 1U << LinkMap::B::features_simulated : 0U);
       case A::frames_good:
@@ -207,6 +209,10 @@ class LinkPort {
   }
 
   LinkBuilt built_;
+  unsigned engine_;
+  /// Bits of an address that reach the register port: the engine's words have the addresses of the
+  /// core's words with one more bit in front.
+  std::uint16_t port_;
   std::uint32_t sequence_ = LinkMap::no_sequence;
   bool done_ = false, clear_ = false, status_ = false;
   State state_ = State::idle;

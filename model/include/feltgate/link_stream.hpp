@@ -18,8 +18,9 @@ namespace feltgate {
 class LinkStream {
  public:
   struct In {
-    bool word_valid = false;  ///< word_data is the snapshot's word of slot word_slot
-    std::uint8_t word_slot = 0;
+    bool word_valid =
+        false;  ///< word_data is the snapshot's word of this number; the status ends a tick
+    std::uint8_t word_number = 0;
     std::uint32_t word_data = 0;
     std::uint16_t addr = 0;
     std::uint32_t wdata = 0;
@@ -33,13 +34,18 @@ class LinkStream {
     bool last = false;
   };
 
-  void reset() { *this = LinkStream(); }
+  /// The memory keeps its words.
+  void reset() {
+    const auto words = tick_;
+    *this = LinkStream();
+    tick_ = words;
+  }
   const Out& out() const { return out_; }
 
   void clock(const In& in) {
     read_back(in.addr);
     const State before = state_;
-    if (in.word_valid) word(in.word_slot, in.word_data);
+    if (in.word_valid) word(in.word_number, in.word_data);
     if (in.write) write(in.addr, in.wdata);
     if (before == State::head || before == State::body) {
       if (in.ready) pass_byte();
@@ -74,10 +80,8 @@ class LinkStream {
   static constexpr unsigned kAlways = 1u << LinkMap::N::tick;
   static constexpr std::uint32_t kLongest = (1u << 24) - 1;
 
-  void word(std::uint8_t slot, std::uint32_t data) {
-    const bool first = slot == LinkMap::slots[0];
-    if (first) {
-      number_ = 0;
+  void word(std::uint8_t number, std::uint32_t data) {
+    if (!within_) {
       const bool due = period_ != 0 && ticks_ == 0;
       if (due) {
         if (state_ == State::idle) {
@@ -92,11 +96,11 @@ class LinkStream {
       }
       ticks_ = ((due ? period_ : ticks_) - 1) & kLongest;
     }
+    within_ = number != LinkMap::N::status;
     if (state_ == State::take) {
-      tick_[number_] = data;
-      if (number_ == kWords - 1) state_ = State::head;
+      tick_[number] = data;
+      if (!within_) state_ = State::head;
     }
-    number_ = (number_ + 1) % 16;
   }
 
   void write(std::uint16_t addr, std::uint32_t data) {
@@ -149,7 +153,7 @@ class LinkStream {
 
   State state_ = State::idle;
   std::array<std::uint32_t, 16> tick_{};
-  unsigned number_ = 0;  ///< number of the next word; valid after the first one
+  bool within_ = false;  ///< amid the words of a tick
   unsigned words_ = 0, left_ = 0, at_ = 0, index_ = 0;
   std::uint32_t period_ = 0, ticks_ = 0, dropped_ = 0;
   std::uint8_t count_ = 0, frame_ = 0;

@@ -27,11 +27,13 @@ template <int N>
 class LinkView {
  public:
   static constexpr int words = LinkMap::snapshot_words;
-  static constexpr int delay = words + 1;  ///< clocks from a tick's last word to the view's
+  static constexpr int delay =
+      words + 1;  ///< clocks from a tick's last clock to the view's last word
   struct In {
-    bool word_valid = false;  ///< word_data are the axes' words of slot word_slot
-    std::uint8_t word_slot = 0;
+    std::array<bool, N> word_valid{};  ///< word_data is the axis' word of this number
+    std::array<std::uint8_t, N> word_number{};
     std::array<std::uint32_t, N> word_data{};
+    bool last = false;  ///< last clock of a tick
     bool event_valid = false;
     int event_number = 0;
     std::uint16_t addr = 0;
@@ -41,7 +43,7 @@ class LinkView {
   struct Out {
     std::uint32_t rdata = 0;  ///< the word at addr, 3 clocks later
     bool word_valid = false;
-    std::uint8_t word_slot = LinkMap::slots[0];
+    std::uint8_t word_number = 0;
     std::uint32_t word_data = 0;  ///< valid with word_valid
     bool event_valid = false;
     int event_number = 0;
@@ -51,7 +53,6 @@ class LinkView {
   void reset() {
     for (std::size_t k = 0; k < choices_.size(); ++k) choices_[k] = static_cast<std::uint32_t>(k);
     half_ = 0;
-    number_ = 15;
     at_ = 0;
     plays_ = false;
     events_ = {};
@@ -64,8 +65,10 @@ class LinkView {
   void clock(const In& in) {
     read_back(in.addr);
     show();
-    const bool ends = in.word_valid && take(in.word_slot, in.word_data);
-    play(ends);
+    for (std::size_t n = 0; n < N; ++n) {
+      if (in.word_valid[n]) ticks_[half_][n][in.word_number[n]] = in.word_data[n];
+    }
+    play(in.last);
     events_[event_] = {in.event_valid, in.event_number};
     event_ = (event_ + 1) % events_.size();
     out_.event_valid = events_[event_].valid;
@@ -79,26 +82,24 @@ class LinkView {
     int number = 0;
   };
   using Tick = std::array<std::array<std::uint32_t, 16>, N>;
+  static constexpr std::size_t kStatus = LinkMap::N::status;
 
   /// The word of the clock that follows.
   void show() {
     out_.word_valid = plays_;
-    out_.word_slot = static_cast<std::uint8_t>(LinkMap::slots[0] + at_);
+    out_.word_number = static_cast<std::uint8_t>(at_);
     const std::uint32_t choice = choices_[at_];
     out_.word_data = ticks_[1 - half_][choice >> 4][choice & 15];
   }
-  /// Returns whether the tick ends.
-  bool take(std::uint8_t slot, const std::array<std::uint32_t, N>& data) {
-    if (slot == LinkMap::slots[0]) number_ = 0;
-    for (std::size_t n = 0; n < N; ++n) ticks_[half_][n][number_] = data[n];
-    const bool last = number_ == words - 1;
-    if (number_ < 15) ++number_;
-    return last;
-  }
+  /// The status is the last word of a tick.
   void play(bool ends) {
-    const bool over = at_ == words - 1;
-    at_ = ends || !plays_ || over ? 0 : at_ + 1;
-    plays_ = ends || (plays_ && !over);
+    const std::size_t shown = at_;
+    if (ends) {
+      at_ = kStatus + 1;
+    } else if (plays_) {
+      at_ = (at_ + 1) % words;
+    }
+    plays_ = ends || (plays_ && shown != kStatus);
     if (ends) half_ = 1 - half_;
   }
   void write(std::uint16_t addr, std::uint32_t data) {
@@ -115,7 +116,7 @@ class LinkView {
 
   std::array<std::uint32_t, words> choices_{};  ///< axis above bit 4, number of the word below
   std::array<Tick, 2> ticks_{};                 ///< one is taken, the other shown
-  std::size_t half_ = 0, number_ = 15, at_ = 0;
+  std::size_t half_ = 0, at_ = 0;
   bool plays_ = false;
   std::array<Event, delay> events_{};
   std::size_t event_ = 0;  ///< the oldest of events_, in whose place the next one goes

@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What feltgate_linked contains instead of a core where the design has an engine or several axes:
-// feltgate_axes, whose words can be read tick by tick. Documentation:
+// What the link's twin contains instead of a core where the design has an engine or several axes.
 // docs/link.md
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "feltgate/feltgate_axes.hpp"
-#include "feltgate/generated/link.hpp"
 
 namespace feltgate {
 
-/// N axes of design D, with the engine if the design has one, behind the link's register port.
-template <class D, int N>
+/// N axes of a design, with the engine if the design has one, behind the link's register port.
+template <int N, bool WithEngine>
 class LinkedAxes {
  public:
+  explicit LinkedAxes(const axis::Design& d) : axes_(d) {}
   void reset() { axes_.reset(); }
   void clock(const AxesIn<N>& in) { axes_.clock(taking(in)); }
   /// Like clock() for `clocks` clocks; also calls `on_event(clock, number)` for each event of the
@@ -28,20 +24,10 @@ class LinkedAxes {
   void run(const AxesIn<N>& in, std::int64_t clocks, OnSnapshot&& on_snapshot, OnEvent&& on_event) {
     struct Watcher {
       OnEvent& on_event;
-      std::int64_t before;
-      void event(std::int64_t clock, int number) { on_event(before + clock, number); }
-      void words() {}
-    } watcher{on_event, 0};
-    const AxesIn<N> to = taking(in);
-    while (clocks > 0) {
-      // Once a tick is over, the words of the cores belong to the next.
-      const int left = D::clocks_per_tick - 1 - axes_.clock_of_tick();
-      const std::int64_t step = std::min<std::int64_t>(clocks, left == 0 ? 1 : left);
-      axes_.run(to, step, on_snapshot, watcher);
-      if (axes_.clock_of_tick() == D::clocks_per_tick - 1) keep_words();
-      watcher.before += step;
-      clocks -= step;
-    }
+      void event(std::int64_t clock, int number) { on_event(clock, number); }
+      void tick_ends() {}
+    } watcher{on_event};
+    axes_.run(taking(in), clocks, on_snapshot, watcher);
   }
 
   const AxesOut<N>& out() const { return axes_.out(); }
@@ -50,20 +36,16 @@ class LinkedAxes {
   int event_number() const { return axes_.glue().event_number(); }
   /// Whether the block at this address cannot take a write in the next clock.
   bool busy(std::uint16_t address) const {
-    if constexpr (D::engine != 0) {
+    if constexpr (WithEngine) {
       if (address >> 12 == axes_engine >> 12) return axes_.glue().port_busy();
     }
     return address < N * axes_stride && axes_.core(address / axes_stride).out().reg_busy;
   }
   /// A word of axis n by its slot: of the running tick, or between two ticks of the last one.
-  std::uint32_t word(int n, int slot) const {
-    return axes_.clock_of_tick() == 0
-               ? whole_[static_cast<std::size_t>(n)][static_cast<std::size_t>(slot)]
-               : axes_.core(n).word(slot);
-  }
+  std::uint32_t word(int n, int slot) const { return axes_.core(n).word(slot); }
   int clock_of_tick() const { return axes_.clock_of_tick(); }
-  FeltgateCore<D>& core(int n = 0) { return axes_.core(n); }
-  const FeltgateCore<D>& core(int n = 0) const { return axes_.core(n); }
+  FeltgateCore& core(int n = 0) { return axes_.core(n); }
+  const FeltgateCore& core(int n = 0) const { return axes_.core(n); }
   auto& engine() { return axes_.engine(); }
 
  private:
@@ -72,18 +54,8 @@ class LinkedAxes {
     in.reg_read = in.reg_write && !busy(in.reg_addr);
     return in;
   }
-  void keep_words() {
-    for (int n = 0; n < N; ++n) {
-      for (const int slot : LinkMap::slots) {
-        whole_[static_cast<std::size_t>(n)][static_cast<std::size_t>(slot)] =
-            axes_.core(n).word(slot);
-      }
-    }
-  }
 
-  static constexpr std::size_t kSlots = LinkMap::slots[LinkMap::snapshot_words - 1] + 1;
-  FeltgateAxes<D, N, true, (D::engine != 0)> axes_;
-  std::array<std::array<std::uint32_t, kSlots>, N> whole_{};  ///< of the last tick run() ended
+  FeltgateAxes<N, WithEngine> axes_;
 };
 
 }  // namespace feltgate

@@ -27,20 +27,24 @@
 
 namespace feltgate {
 
-/// Core and link of design D, or N axes and their link.
-template <class D, int N = 1>
+/// Core and link, or N axes and their link; with an engine one axis is such a device, too.
+template <int N = 1, bool WithEngine = false>
 class LinkedCore {
  public:
-  using Device = std::conditional_t<D::engine != 0 || N != 1, LinkedAxes<D, N>, FeltgateCore<D>>;
+  using Device = std::conditional_t<WithEngine || N != 1, LinkedAxes<N, WithEngine>, FeltgateCore>;
   using In = std::conditional_t<N == 1, LinkedIn, LinkedAxesIn<N>>;
   using Out = std::conditional_t<N == 1, LinkedOut, LinkedAxesOut<N>>;
 
-  explicit LinkedCore(LinkedOptions o = {})
-      : rx_(uart_step(D::clock_hz, o.baud)),
-        receiver_(D::engine != 0),
-        port_({o.simulated, o.board, kFeatures}),
-        tx_(uart_step(D::clock_hz, o.baud)),
-        line_(D::clock_hz, o.baud) {
+  explicit LinkedCore(const axis::Design& d, LinkedOptions o = {})
+      : core_(d),
+        rx_(uart_step(d.wide("CLOCK_HZ"), o.baud)),
+        receiver_(WithEngine),
+        port_({o.simulated, o.board, kFeatures, static_cast<std::uint32_t>(d.wide("DESIGN_CRC")),
+               static_cast<std::uint32_t>(d.wide("CLOCK_HZ")),
+               static_cast<std::uint32_t>(d["CLOCKS_PER_TICK"]), WithEngine}),
+        tx_(uart_step(d.wide("CLOCK_HZ"), o.baud)),
+        line_(d.wide("CLOCK_HZ"), o.baud),
+        tick_clocks_(d["CLOCKS_PER_TICK"]) {
     show();
   }
 
@@ -66,9 +70,9 @@ class LinkedCore {
     const FrameByte offered = offer();
     const Words words = words_out();
     const Shown shown = shown_words(words);
-    stream_.clock({shown.valid, shown.slot, shown.data[0], does.addr, does.wdata, does.write,
+    stream_.clock({shown.valid, shown.number, shown.data, does.addr, does.wdata, does.write,
                    sent.stream_ready});
-    capture_.clock({shown.valid, shown.slot, shown.data[0], does.addr, does.wdata, does.write,
+    capture_.clock({shown.valid, shown.number, shown.data, does.addr, does.wdata, does.write,
                     shown.event_valid, shown.event_number});
     view_clock(words, does.addr, does.wdata, does.write);
     rx_.clock({in.uart_rx});
@@ -81,8 +85,8 @@ class LinkedCore {
   }
 
   const Out& out() const { return out_; }
-  const FeltgateCore<D>& core() const { return core_of(core_); }
-  FeltgateCore<D>& core() { return core_of(core_); }
+  const FeltgateCore& core() const { return core_of(core_); }
+  FeltgateCore& core() { return core_of(core_); }
   /// The block at the register port: the core, or an axis with its engine.
   Device& device() { return core_; }
 
@@ -119,9 +123,9 @@ class LinkedCore {
 
  private:
   static constexpr bool kAxes = N > 1;
-  static constexpr bool kCore = std::is_same_v<Device, FeltgateCore<D>>;
-  using Port = LinkPort<D, N>;
-  using Capture = LinkCapture<1 << LinkMap::rows_log2, D::engine != 0>;
+  static constexpr bool kCore = std::is_same_v<Device, FeltgateCore>;
+  using Port = LinkPort<N>;
+  using Capture = LinkCapture<1 << LinkMap::rows_log2, WithEngine>;
   struct NoView {
     void reset() {}
   };
@@ -130,22 +134,28 @@ class LinkedCore {
   struct Event {
     int clock, number;  ///< clock of the tick
   };
-  /// A word of each of M axes in a clock, and an event.
-  template <int M>
-  struct WordsOf {
-    bool valid = false;
-    std::uint8_t slot = 0;
-    std::array<std::uint32_t, M> data{};
+  /// What the device gives in a clock: a word of each axis, and an event.
+  struct Words {
+    std::array<bool, N> valid{};
+    std::array<std::uint8_t, N> number{};
+    std::array<std::uint32_t, N> data{};
+    bool last = false;  ///< last clock of the tick
     bool event_valid = false;
     int event_number = 0;
   };
-  using Words = WordsOf<N>;  ///< what the device gives
-  using Shown = WordsOf<1>;  ///< what stream and capture see
-  static constexpr std::uint32_t kFeatures =
-      1U << LinkMap::B::features_capture | 1U << LinkMap::B::features_stream |
-      (D::engine != 0 ? 1U : 0U) << LinkMap::B::features_engine |
-      LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
-      LinkMap::columns << LinkMap::B::features_columns;
+  /// What stream and capture see of it.
+  struct Shown {
+    bool valid = false;
+    std::uint8_t number = 0;
+    std::uint32_t data = 0;
+    bool event_valid = false;
+    int event_number = 0;
+  };
+  static constexpr std::uint32_t kFeatures = 1U << LinkMap::B::features_capture |
+                                             1U << LinkMap::B::features_stream |
+                                             (WithEngine ? 1U : 0U) << LinkMap::B::features_engine |
+                                             LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
+                                             LinkMap::columns << LinkMap::B::features_columns;
 
   typename Port::In port_in(const In& in) const {
     typename Port::In p;
@@ -191,10 +201,14 @@ class LinkedCore {
   }
   Words words_out() const {
     Words w;
-    w.valid = device_out(0).word_valid;
-    w.slot = device_out(0).word_slot;
-    for (std::size_t n = 0; n < N; ++n) w.data[n] = device_out(n).word_data;
-    if constexpr (D::engine != 0) {
+    for (std::size_t n = 0; n < N; ++n) {
+      const CoreOut& o = device_out(n);
+      w.valid[n] = o.word_valid;
+      w.number[n] = linked::number_of(o.word_slot);
+      w.data[n] = o.word_data;
+    }
+    w.last = core_.clock_of_tick() == tick_clocks_ - 1;
+    if constexpr (WithEngine) {
       w.event_valid = core_.event_valid();
       w.event_number = core_.event_number();
     }
@@ -204,15 +218,16 @@ class LinkedCore {
   Shown shown_words(const Words& words) const {
     if constexpr (kAxes) {
       const auto& o = view_.out();
-      return {o.word_valid, o.word_slot, {o.word_data}, o.event_valid, o.event_number};
+      return {o.word_valid, o.word_number, o.word_data, o.event_valid, o.event_number};
     } else {
-      return {words.valid, words.slot, {words.data[0]}, words.event_valid, words.event_number};
+      return {words.valid[0], words.number[0], words.data[0], words.event_valid,
+              words.event_number};
     }
   }
   void view_clock(const Words& words, std::uint16_t addr, std::uint32_t wdata, bool write) {
     if constexpr (kAxes) {
-      view_.clock({words.valid, words.slot, words.data, words.event_valid, words.event_number, addr,
-                   wdata, write});
+      view_.clock({words.valid, words.number, words.data, words.last, words.event_valid,
+                   words.event_number, addr, wdata, write});
     }
   }
 
@@ -229,100 +244,81 @@ class LinkedCore {
 
   FrameByte offer() const { return {stream_.out().valid, stream_.out().byte, stream_.out().last}; }
 
-  /// Clock of the tick in which stream and capture see a word of the snapshot.
-  static constexpr int seen_at(int k) { return LinkMap::slots[k] + Map::first_wave_clock + 1; }
-  static constexpr int kTick = D::clocks_per_tick;
-  static constexpr int kLastWord = seen_at(LinkMap::snapshot_words - 1);
-  /// Clock in which they see the last word of a tick through the view.
-  static constexpr int kLastShown = (kLastWord + LinkView<N>::delay) % kTick;
-  static_assert(kLastWord < kTick, "the words of a tick come within it");
+  static constexpr int kWords = LinkMap::snapshot_words;
+  /// Number of the word that each axis gives in a clock of this tick; -1: none.
+  void note_words_by_clock() {
+    for (std::size_t n = 0; n < N; ++n) {
+      given_[n].assign(static_cast<std::size_t>(tick_clocks_), -1);
+      for (int k = 0; k < kWords; ++k) {
+        const int number = linked::number_of(axis::Snapshot::places[k]);
+        given_[n][static_cast<std::size_t>(given_at(n, k))] = static_cast<std::int8_t>(number);
+      }
+    }
+  }
+  /// Clock of the tick in which an axis gives its k-th word.
+  int given_at(std::size_t n, int k) const {
+    using axis::Snapshot;
+    const int duty = core_of(core_, n).duty_clock();
+    const int begin = duty - axis::TorqueLaw<axis::Fixed>::latency;
+    return k < Snapshot::early ? begin + 2 + k : duty + 2 + k - Snapshot::early;
+  }
+  /// Clock in which stream and capture see the last word of a tick.
+  int last_word() const {
+    return kAxes ? (LinkView<N>::delay - 1) % tick_clocks_ : given_at(0, kWords - 1);
+  }
 
   /// How many of `quiet` clocks can be passed at once: the rest of a tick, or whole ticks of which
   /// stream and capture need only the last; never past the last word of a frame.
   std::int64_t stretch(std::int64_t quiet) const {
     const int at = core_.clock_of_tick();
-    if constexpr (kAxes) {
-      if (stream_.keeps()) quiet = std::min<std::int64_t>(quiet, (kLastShown - at + kTick) % kTick);
-      return std::min<std::int64_t>(quiet, kTick - at);
+    if (!kAxes && at == 0 && quiet >= tick_clocks_ && !stream_.on() && !capture_.runs()) {
+      return quiet / tick_clocks_ * tick_clocks_;
     }
-    if (at == 0 && quiet >= kTick && !stream_.on() && !capture_.runs()) {
-      return quiet / kTick * kTick;
+    if (stream_.keeps() && at <= last_word()) {
+      quiet = std::min<std::int64_t>(quiet, last_word() - at);
     }
-    if (stream_.keeps() && at <= kLastWord) quiet = std::min<std::int64_t>(quiet, kLastWord - at);
-    return std::min<std::int64_t>(quiet, kTick - at);
+    return std::min<std::int64_t>(quiet, tick_clocks_ - at);
   }
 
-  /// Passes a stretch of quiet clocks.
+  /// Passes a stretch of quiet clocks; of several ticks the last one's words count.
   template <class OnSnapshot>
   void pass(const In& in, const typename Port::Out& port, std::int64_t clocks,
             OnSnapshot&& on_snapshot) {
-    if constexpr (kAxes) return pass_axes(in, port, static_cast<int>(clocks), on_snapshot);
     const int from = core_.clock_of_tick();
-    const int to = static_cast<int>(from + std::min<std::int64_t>(clocks, kTick));
-    const CoreOut before = device_out(0);
-    std::int64_t ticks = clocks / kTick;  // ticks before the one whose words count
-    std::array<std::uint32_t, LinkMap::snapshot_words> words{};
-    const auto take = [&] {
-      for (std::size_t k = 0; k < words.size(); ++k) words[k] = device_word(0, LinkMap::slots[k]);
-    };
-    bool all = false;
+    const int to = static_cast<int>(from + std::min<std::int64_t>(clocks, tick_clocks_));
+    note_words_by_clock();
     const auto at_snapshot = [&] {
-      if (--ticks <= 0) take(), all = true;
       show();
       on_snapshot();
     };
     events_.clear();
-    if constexpr (!kCore) {
-      // Without a capture the stretch may hold many ticks, and no event is needed.
-      core_.run(core_in(in, port), clocks, at_snapshot, [&](std::int64_t clock, int number) {
-        if (capture_.runs()) events_.push_back({from + static_cast<int>(clock), number});
-      });
-    } else {
+    if constexpr (kCore) {
       core_.run(core_in(in, port), clocks, at_snapshot);
+    } else {
+      core_.run(core_in(in, port), clocks, at_snapshot, [&](std::int64_t clock, int number) {
+        if (kAxes || capture_.runs()) events_.push_back({from + static_cast<int>(clock), number});
+      });
     }
-    if (!all && to < kTick) take();
-    feed(from, to, words, before, port.addr);
-  }
-
-  /// The same of several axes, within a tick: the view takes the words in their clocks.
-  template <class OnSnapshot>
-  void pass_axes(const In& in, const typename Port::Out& port, int clocks,
-                 OnSnapshot&& on_snapshot) {
-    const int from = core_.clock_of_tick(), to = from + clocks;
-    const Words before = words_out();
-    events_.clear();
-    core_.run(
-        core_in(in, port), clocks,
-        [&] {
-          show();
-          on_snapshot();
-        },
-        [&](std::int64_t clock, int number) {
-          events_.push_back({from + static_cast<int>(clock), number});
-        });
     std::size_t told = 0;
-    int next = 0;  // number of the next word
-    while (next < LinkMap::snapshot_words && seen_at(next) < from) ++next;
     bool showed = true;
     for (int at = from; at < to; ++at) {
       Words words;
-      if (next < LinkMap::snapshot_words && seen_at(next) == at) {
-        words = at == from ? before : words;
-        words.valid = true;
-        words.slot = static_cast<std::uint8_t>(LinkMap::slots[next]);
-        for (std::size_t n = 0; n < N && at != from; ++n)
-          words.data[n] = device_word(n, LinkMap::slots[next]);
-        ++next;
+      for (std::size_t n = 0; n < N; ++n) {
+        const int k = given_[n][static_cast<std::size_t>(at)];
+        words.valid[n] = k >= 0;
+        if (k < 0) continue;
+        words.number[n] = static_cast<std::uint8_t>(k);
+        words.data[n] = device_word(n, LinkMap::slots[k]);
       }
-      words.event_valid = false;
+      words.last = at == tick_clocks_ - 1;
       if (told < events_.size() && events_[told].clock == at) {
         words.event_valid = true;
         words.event_number = events_[told++].number;
       }
       const Shown shown = shown_words(words);
       if (shown.valid || shown.event_valid || showed || at < from + 3 || at >= to - 3) {
-        stream_.clock({shown.valid, shown.slot, shown.data[0], port.addr, 0, false, false});
-        capture_.clock({shown.valid, shown.slot, shown.data[0], port.addr, 0, false,
+        stream_.clock({shown.valid, shown.number, shown.data, port.addr, 0, false, false});
+        capture_.clock({shown.valid, shown.number, shown.data, port.addr, 0, false,
                         shown.event_valid, shown.event_number});
       }
       showed = shown.valid;
@@ -330,44 +326,11 @@ class LinkedCore {
     }
   }
 
-  /// Gives stream and capture the words and the events_ of the clocks [from, to) of a tick.
-  void feed(int from, int to, const std::array<std::uint32_t, LinkMap::snapshot_words>& words,
-            const CoreOut& before, std::uint16_t addr) {
-    const auto idle = [&](int clocks) {
-      for (int k = 0; k < std::min(clocks, 3); ++k) {
-        stream_.clock({false, 0, 0, addr, 0, false, false});
-        capture_.clock({false, 0, 0, addr, 0, false, false, 0});
-      }
-    };
-    std::size_t told = 0;
-    const auto tell = [&](int before_clock) {
-      for (; told < events_.size() && events_[told].clock < before_clock; ++told) {
-        capture_.event(events_[told].number);
-      }
-    };
-    int at = from;
-    for (int k = 0; k < LinkMap::snapshot_words; ++k) {
-      const int seen = seen_at(k);
-      if (seen < from || seen >= to) continue;
-      const auto slot = static_cast<std::uint8_t>(LinkMap::slots[k]);
-      const std::uint32_t word =
-          seen == from ? before.word_data : words[static_cast<std::size_t>(k)];
-      idle(seen - at);
-      tell(seen);
-      stream_.clock({true, slot, word, addr, 0, false, false});
-      capture_.clock({true, slot, word, addr, 0, false, false, 0});
-      tell(seen + 1);
-      at = seen + 1;
-    }
-    idle(to - at);
-    tell(to);
-  }
-
-  static FeltgateCore<D>& core_of(FeltgateCore<D>& core) { return core; }
-  static const FeltgateCore<D>& core_of(const FeltgateCore<D>& core) { return core; }
-  template <class Axis>
-  static auto& core_of(Axis& axis) {
-    return axis.core();
+  static FeltgateCore& core_of(FeltgateCore& core, std::size_t = 0) { return core; }
+  static const FeltgateCore& core_of(const FeltgateCore& core, std::size_t = 0) { return core; }
+  template <class Axes>
+  static auto& core_of(Axes& axes, std::size_t n = 0) {
+    return axes.core(static_cast<int>(n));
   }
 
   void show() {
@@ -391,7 +354,9 @@ class LinkedCore {
   UartTx tx_;
   UartLine line_;
   Out out_;
+  int tick_clocks_;
   std::vector<Event> events_;  ///< of a stretch, while a capture runs
+  std::array<std::vector<std::int8_t>, N> given_;
 };
 
 }  // namespace feltgate

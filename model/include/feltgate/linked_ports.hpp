@@ -62,6 +62,13 @@ struct LinkedOptions {
 /// What several axes have as one core has it.
 namespace linked {
 
+/// Number of the snapshot's word at a slot.
+constexpr std::uint8_t number_of(int slot) {
+  std::uint8_t n = 0;
+  while (n + 1 < LinkMap::snapshot_words && LinkMap::slots[n] != slot) ++n;
+  return n;
+}
+
 inline const CoreOut& axis(const LinkedOut& out, std::size_t) { return out.core; }
 template <int N>
 const CoreOut& axis(const LinkedAxesOut<N>& out, std::size_t n) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One parameter of a design as the generated headers list it. Documentation: docs/registers.md
+// What the generated headers list of a design: a parameter, a constant. Documentation:
+// docs/registers.md
 #pragma once
 
 #include <cstdint>
@@ -18,6 +19,13 @@ struct ParameterInfo {
   Format format;     ///< format of the word
   double si;         ///< exact value that the design states, in `unit`
   std::int64_t raw;  ///< the same value, quantised
+  Format field;      ///< of its register: a limit has no sign, an integer the bits of the map
+};
+
+/// A constant of a design, by its name in the package cfg.
+struct NamedConstant {
+  const char* name;
+  std::int64_t value;
 };
 
 /// What a write of `word` to a parameter stores: the nearest word that fits its format. A word with

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/pwm.sv: centre-aligned PWM for an H-bridge, with dead time. Duty
+// Twin of rtl/core/pwm.sv: centre-aligned PWM for an H-bridge, with dead time. Duty
 // [1,12,0] in clocks is sampled once per period, with period_start. It reaches the gates 3 clocks
 // later, rising edges after the dead time in addition; while disabled, the duty is 0.
 // Documentation: docs/blocks/pwm.md

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/pwm_three_phase.sv: centre-aligned PWM for three legs, with dead time.
+// Twin of rtl/options/pwm_three_phase.sv: centre-aligned PWM for three legs, with dead time.
 // On-times in clocks are sampled once per period, with period_start. They reach the gates 3 clocks
 // later, rising edges after the dead time in addition; while disabled they are 0.
 // Documentation: docs/blocks/pwm.md
@@ -34,6 +34,11 @@ class PwmThreePhase {
     bool gate_c_hi = false;
     bool gate_c_lo = false;
     bool period_start = false;  ///< the on-times were sampled in the last clock
+    /// Bit 0 leg A high, bit 1 leg A low, then B and C.
+    unsigned bits() const {
+      return unsigned{gate_a_hi} | unsigned{gate_a_lo} << 1 | unsigned{gate_b_hi} << 2 |
+             unsigned{gate_b_lo} << 3 | unsigned{gate_c_hi} << 4 | unsigned{gate_c_lo} << 5;
+    }
   };
 
   /// `period` in clocks: even, 4 to 4094. `dead_clocks`: 1 to 64. `shortest_clocks`: shortest pulse

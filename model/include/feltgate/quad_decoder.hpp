@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/encoder/quad_decoder.sv: incremental encoder to position [1,31,0] counts, which
+// Twin of rtl/core/quad_decoder.sv: incremental encoder to position [1,31,0] counts, which
 // wraps. Latency from pin to travel 3 clocks, to position 4 clocks, plus the filter length.
 // Documentation: docs/blocks/encoder.md
 #pragma once

@@ -354,8 +354,7 @@ class AxesRun : plant::AxesDevice<Plant> {
 
 template <class Setup>
 AxesResult run_on(const AxesScene& scene, const Setup& setup, const AxesRunOptions& options) {
-  const AxesDesignMakers* d = find_axes_design(options.design);
-  const plant::Drive drive = d == nullptr ? plant::Drive{} : plant::drive_of(d->info());
+  const plant::Drive drive = plant::drive_of(design_named(options.design));
   typename Setup::Plant plant(setup.parameters, scene.scenario.effects, drive, setup.hand);
   return AxesRun<typename Setup::Plant>(scene, plant, options).run();
 }
@@ -404,20 +403,11 @@ BackendChoice choose_axes_backends(const std::string& engines) {
 
 std::unique_ptr<AxesCores> make_axes_cores(const std::string& design, const std::string& lead,
                                            const std::string& device, std::size_t axes) {
-  const AxesDesignMakers* d = find_axes_design(design);
-  if (d == nullptr) {
-    throw std::invalid_argument(fmt::format(
-        "design {} is not one of {} axes that this program has; ./feltgate builds it with "
-        "--design {}_law",
-        design, axes, device));
-  }
-  auto made = d->cores(lead);
-  if (made->axes() != static_cast<int>(axes)) {
-    throw std::invalid_argument(
-        fmt::format("design {} has {} axes and the device {}; take one with as many", design,
-                    made->axes(), axes));
-  }
-  return made;
+  const int has = design_named(design).axes;
+  if (has == static_cast<int>(axes)) return make_axes_cores(design, lead);
+  throw std::invalid_argument(fmt::format(
+      "design {} has {} axes and the device {} {}; take one with as many, such as {}_law", design,
+      has, device, axes, device));
 }
 
 }  // namespace feltgate

@@ -38,8 +38,7 @@ inline bool odd(std::uint64_t word) {
 /// A frame: what a sensor says, closed by its parity or CRC.
 inline std::uint64_t closed(const AbsoluteEncoder::Parameters& p, std::uint64_t said) {
   if (p.framing == AbsoluteEncoder::kSpi) return odd(said) ? said | 0x8000 : said;
-  const bool biss = p.framing == AbsoluteEncoder::kBiss;
-  return said << 6 | (crc6(said << 6, p.bits + (biss ? 8 : 10)) ^ (biss ? 0x3fU : 0U));
+  return said << 6 | crc6(said << 6, p.bits + 10);
 }
 
 /// What a sensor shows at an angle, before rounding. Its error is a sum of terms_rad, cosine 1,
@@ -85,17 +84,15 @@ class AbsoluteSensor {
   /// The data pin in clock `now`; `lines`: CoreOut::serial after the clock before.
   bool pin(Clock now, unsigned lines) {
     const bool selected = (lines & 1u) == 0, high = (lines & 2u) != 0;
-    const bool begins = biss() ? !reads_ && high_ && !high : selected && !reads_;
-    if (begins) begin(now);
-    if (high != high_) edge(high, (lines & 4u) != 0, now);
+    if (selected && !reads_) begin(now);
+    if (high != high_) edge(high, (lines & 4u) != 0);
     high_ = high;
-    // BiSS-C: a reading ends when the clock stands.
-    if (biss() ? now - edge_at_ > 2 * p_.half_clocks + 2 : !selected) reads_ = false;
+    if (!selected) reads_ = false;
     if (defect_ == Defect::cut) return true;  // pulled up
     if (defect_ == Defect::grounded) return false;
     if (!reads_) return true;
-    const int bit = edges_ - (biss() ? 4 : 1);
-    if (bit < 0) return edges_ != 2;  // BiSS-C: the acknowledge
+    const int bit = edges_ - 1;
+    if (bit < 0) return true;
     return bit < p_.frame_bits() && (word_ >> (p_.frame_bits() - 1 - bit) & 1) != 0;
   }
 
@@ -106,8 +103,6 @@ class AbsoluteSensor {
   }
 
  private:
-  bool biss() const { return p_.framing == AbsoluteEncoder::kBiss; }
-
   void begin(Clock now) {
     reads_ = true;
     edges_ = command_ = 0;
@@ -116,8 +111,7 @@ class AbsoluteSensor {
     }
     word_ = word();
   }
-  void edge(bool high, bool command, Clock now) {
-    edge_at_ = now;
+  void edge(bool high, bool command) {
     if (high) ++edges_;
     if (high) return;
     command_ = command_ << 1 | (command ? 1 : 0);
@@ -129,8 +123,7 @@ class AbsoluteSensor {
     const std::int64_t count = stuck_high_ ? (count_ + off) | stuck_ : (count_ + off) & ~stuck_;
     const auto position = static_cast<std::uint64_t>(count & (turn - 1));
     const bool ill = defect_ == Defect::magnet_lost;
-    std::uint64_t said = position << 2 | (ill ? 1U : 3U);
-    if (p_.framing == AbsoluteEncoder::kSsi) said = position << 4 | (ill ? 2U : 0U);
+    std::uint64_t said = position << 4 | (ill ? 2U : 0U);
     if (p_.framing == AbsoluteEncoder::kSpi) {
       said = answers_ == p_.diag_address ? (ill ? 0x900U : 0x180U)
              : answers_ == 0x3fff        ? position
@@ -143,7 +136,7 @@ class AbsoluteSensor {
   Defect defect_ = Defect::none;
   std::vector<double> error_rad_;
   double from_rad_ = 0, slope_ = 0;  // per clock
-  Clock begin_ = 0, edge_at_ = 0;
+  Clock begin_ = 0;
   bool reads_ = false, high_ = false;
   int edges_ = 0, command_ = 0, answers_ = -1;
   std::int64_t count_ = 0, stuck_ = 0;

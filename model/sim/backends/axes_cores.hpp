@@ -62,15 +62,12 @@ class AxesCores : public AnyBackend {
   Clock first_mismatch_clock_ = 0;
 };
 
-/// The back-ends of a design with several axes: "twin" and "lockstep".
-struct AxesDesignMakers {
-  std::string name;
-  std::unique_ptr<AxesCores> (*cores)(const std::string& kind);
-  DesignInfo (*info)();
-};
-/// Registers a design; call it before main().
-void add_axes_design(const AxesDesignMakers& design);
-/// nullptr if the program does not contain the design.
-const AxesDesignMakers* find_axes_design(const std::string& design);
+/// Makes the back-end "twin" of a design with several axes, or "lockstep" where the program has its
+/// Verilated axes. Errors: std::invalid_argument that names the choices.
+std::unique_ptr<AxesCores> make_axes_cores(const std::string& design, const std::string& kind);
+
+/// Adds the Verilated axes of a design, before main(), as add_rtl().
+using RtlAxesMaker = std::unique_ptr<AxesCores> (*)(const DesignInfo& design);
+bool add_rtl_axes(const std::string& design, std::uint32_t design_crc, RtlAxesMaker maker);
 
 }  // namespace feltgate

@@ -7,43 +7,36 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
-#include <set>
+#include <map>
+#include <mutex>
 #include <stdexcept>
+#include <utility>
 
 #include "sim/backends/make_device.hpp"
-#include "sim/reference/real_chain.hpp"
+#include "sim/backends/twin_backend.hpp"
+#include "sim/reference/chain.hpp"
 
 namespace feltgate {
 
 namespace {
 
-std::vector<DesignMakers>& designs() {
-  static std::vector<DesignMakers> list;
-  return list;
+DesignSource& source() {
+  static DesignSource designs;
+  return designs;
 }
 
-RtlMaker rtl_backends = nullptr;  // set before main() if the Verilated cores are linked
-
-const DesignMakers* find(const std::string& design) {
-  for (const DesignMakers& d : designs()) {
-    if (d.name == design) return &d;
-  }
-  return nullptr;
+struct Rtl {
+  std::uint32_t design_crc;
+  RtlMaker maker;
+};
+std::map<std::string, Rtl>& rtl() {
+  static std::map<std::string, Rtl> cores;
+  return cores;
 }
 
-std::function<void(const DesignInfo&)> check_of_designs;
-
-const DesignMakers& makers_of(const std::string& design) {
-  if (const DesignMakers* d = find(design)) {
-    check_design(d->info());
-    return *d;
-  }
-  throw std::invalid_argument(
-      fmt::format("design \"{0}\" is not built in; choose one of {1}, a preset (fast, balanced, "
-                  "exact) by way of ./feltgate, which builds it, or add rtl/designs/{0}.toml and "
-                  "run `feltgate generate`",
-                  design, fmt::join(design_names(), ", ")));
+template <class Core>
+std::unique_ptr<Backend> twin(const DesignInfo& design) {
+  return std::make_unique<TwinBackend<Core>>(design);
 }
 
 }  // namespace
@@ -58,78 +51,67 @@ int Backend::on_time(std::size_t) const {
       "back-end {} does not show on-times; switch the bridge, or take twin or lockstep", name()));
 }
 
-void check_designs(std::function<void(const DesignInfo&)> check) {
-  check_of_designs = std::move(check);
+void set_design_source(DesignSource designs) { source() = std::move(designs); }
+
+std::vector<std::string> design_names() { return source().names(); }
+
+const DesignInfo& design_named(const std::string& design) {
+  static std::map<std::string, DesignInfo> read;
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  const auto at = read.find(design);
+  if (at != read.end()) return at->second;
+  return read.emplace(design, source().named(design)).first->second;
 }
 
-void check_design(const DesignInfo& design) {
-  static std::set<std::string> good;
-  if (check_of_designs == nullptr || good.count(design.name) > 0) return;
-  check_of_designs(design);
-  good.insert(design.name);
+bool add_rtl(const std::string& design, std::uint32_t design_crc, RtlMaker maker) {
+  rtl()[design] = {design_crc, maker};
+  return true;
 }
 
-void add_design(const DesignMakers& design) {
-  for (DesignMakers& d : designs()) {
-    if (d.name != design.name) continue;
-    d = design;
-    return;
+void require_rtl_of(const DesignInfo& design, std::uint32_t design_crc) {
+  if (design.design_crc == design_crc) return;
+  throw std::invalid_argument(fmt::format(
+      "design {0}: its RTL in this program is of another design of this name; run "
+      "./feltgate generate, then this command by way of ./feltgate, which builds it anew",
+      design.name));
+}
+
+std::unique_ptr<Backend> make_backend(const std::string& name, const std::string& kind) {
+  const DesignInfo& design = design_named(name);
+  if (design.axes != 1) {
+    throw std::invalid_argument(
+        fmt::format("design {} has {} axes; name a scene of its device", name, design.axes));
   }
-  designs().push_back(design);
-}
-
-std::vector<std::string> design_names() {
-  std::vector<std::string> names;
-  for (const DesignMakers& d : designs()) {
-    if (!d.preset) names.push_back(d.name);
-  }
-  return names;
-}
-
-void provide_rtl_backends(RtlMaker maker) { rtl_backends = maker; }
-
-std::unique_ptr<Backend> make_rtl_backend(const std::string& design, const std::string& kind) {
+  if (kind == "twin") return design.engine ? twin<LawCore>(design) : twin<FeltgateCore>(design);
   if (kind != "rtl" && kind != "lockstep") {
     throw std::invalid_argument("engine \"" + kind + "\" is unknown; choose rtl, twin or lockstep");
   }
-  if (rtl_backends != nullptr) return rtl_backends(design, kind);
-  throw std::invalid_argument(
-      fmt::format("engine \"{}\" of design {}: the RTL is not built into this program; choose the "
-                  "engine twin, or build with -DFELTGATE_RTL=ON, which needs Verilator, and link "
-                  "feltgate_rtl",
-                  kind, design));
+  const auto core = rtl().find(design.name);
+  if (core == rtl().end()) {
+    throw std::invalid_argument(
+        fmt::format("engine \"{}\" of design {}: its RTL is not in this program; choose the engine "
+                    "twin, or put its file into rtl/designs and start ./feltgate, which builds it",
+                    kind, name));
+  }
+  require_rtl_of(design, core->second.design_crc);
+  return core->second.maker(design, kind == "lockstep");
 }
 
-std::unique_ptr<Backend> make_backend(const std::string& design, const std::string& kind) {
-  return makers_of(design).engine(kind);
-}
-
-DesignInfo design_named(const std::string& design) { return makers_of(design).info(); }
-
-std::unique_ptr<Device> make_device(const std::string& design) {
-  const DesignMakers& d = makers_of(design);
-  if (d.device != nullptr) return d.device();
-  throw std::invalid_argument(
-      fmt::format("design {} has no device here; choose one of {}, or use "
-                  "TwinDevice of its generated header",
-                  design, fmt::join(design_names(), ", ")));
+std::unique_ptr<Device> make_device(const std::string& name) {
+  const DesignInfo& design = design_named(name);
+  if (design.axes == 1 && !design.engine) return std::make_unique<TwinDevice>(design);
+  throw std::invalid_argument(fmt::format(
+      "design {} has an engine of laws, and no device of this kind; choose another", name));
 }
 
 std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std::string& kind) {
-  return makers_of(design).chain(kind);
+  return make_chain(design_named(design), kind);
 }
 
 void AnyBackend::trace(const std::string&, Clock, Clock) {
   throw std::invalid_argument(
       fmt::format("--fst: the back-end {} has no waveform; choose --engine rtl or all", name()));
-}
-
-std::int64_t quantise_parameter(const ParameterInfo& info, double value) {
-  if (const auto raw = quantised(info, value)) return *raw;
-  const ValueRange range = range_of(info);
-  throw std::invalid_argument(
-      fmt::format("{} = {} {} does not fit its register; choose a value from {} to below {}",
-                  info.name, value, info.unit, range.low, range.high + range.step));
 }
 
 std::uint32_t control_word(const DesignInfo& design, int scene, int mode, bool arm) {

@@ -34,13 +34,13 @@ struct Snapshot {
   bool armed = false;
   // Not outputs of the RTL, hence not compared:
   std::int16_t travel = 0;  ///< sampled free-running count
-  std::int64_t writes = 0;  ///< register writes executed before this wave
+  std::int64_t writes = 0;  ///< register writes executed before this tick
   /// For the scene law: whether a run of the program began with the samples of this tick; whether
   /// it is known from which samples the torque in force comes, and their tick.
   bool law_begins = false, law_known = false;
   std::uint32_t law_tick = 0;
   std::int64_t law_changes = 0;  ///< parameter sets that had come into force when that run began
-  bool law_restart = false;      ///< the law's torque might jump in this wave
+  bool law_restart = false;      ///< the law's torque might jump in this tick
   bool law_stale = false;        ///< a mailbox of the law is too old: its torque is 0
 
   Snapshot() = default;
@@ -182,44 +182,30 @@ class Backend : public AnyBackend {
   }
 };
 
-/// Makes a back-end of a built-in design. Kinds: "twin"; "rtl" and "lockstep" if feltgate_rtl is
-/// linked. Errors: std::invalid_argument that names the choices.
+/// Makes a back-end of a design of one axis, which design_named() knows. Kinds: "twin"; "rtl" and
+/// "lockstep" where the program has the Verilated core of the design. Errors: std::invalid_argument
+/// that names the choices.
 std::unique_ptr<Backend> make_backend(const std::string& design, const std::string& kind);
-/// Names of the built-in designs.
+/// Names of the designs of rtl/designs.
 std::vector<std::string> design_names();
-/// Rates, formats and parameters of a design, without a back-end of it.
-/// Errors: those of make_backend().
-DesignInfo design_named(const std::string& design);
+/// A design by its name in rtl/designs, or by the path of its file, which has a / or ends with
+/// .toml. It is read once. Errors: std::invalid_argument that names the choices; those of the file.
+const DesignInfo& design_named(const std::string& design);
 
-/// What the functions above, and make_device() through `device`, need of a design. Linked libraries
-/// add it before main(): feltgate_backends adds the designs of rtl/designs that are not presets, a
-/// program of a preset adds that one. design_names() lists no preset.
-class Device;
-class RealChain;
-struct DesignMakers {
-  std::string name;
-  std::unique_ptr<Backend> (*engine)(const std::string& kind);
-  std::unique_ptr<RealChain> (*chain)(const std::string& kind);
-  DesignInfo (*info)();
-  std::unique_ptr<Device> (*device)() = nullptr;
-  bool preset = true;
+/// Where the functions above find designs. feltgate_backends sets the files that it was built with,
+/// before main(); a program may set others.
+struct DesignSource {
+  std::function<DesignInfo(const std::string&)> named;
+  std::function<std::vector<std::string>()> names;
 };
-/// Adds a design. Of several with one name the last is used; those of rtl/designs come first.
-void add_design(const DesignMakers& design);
+void set_design_source(DesignSource source);
 
-/// A check of each built-in design before it is first used, by any function above or
-/// find_axes_design(). It throws where the design may not be used; commands compare it with its file.
-void check_designs(std::function<void(const DesignInfo&)> check);
-/// Makes that check of a design that is used in another way.
-void check_design(const DesignInfo& design);
-
-/// Makes "rtl" and "lockstep" of the built-in designs. Only the library feltgate_rtl sets it,
-/// before main().
-using RtlMaker = std::unique_ptr<Backend> (*)(const std::string& design, const std::string& kind);
-void provide_rtl_backends(RtlMaker maker);
-/// Calls that maker. Errors: std::invalid_argument if the library is not linked or the kind is
-/// unknown.
-std::unique_ptr<Backend> make_rtl_backend(const std::string& design, const std::string& kind);
+/// Adds the Verilated core of a design, before main(). `design_crc`: of the design that it was made
+/// of; another one's core is refused.
+using RtlMaker = std::unique_ptr<Backend> (*)(const DesignInfo& design, bool lock_step);
+bool add_rtl(const std::string& design, std::uint32_t design_crc, RtlMaker maker);
+/// Refuses a Verilated core, of a file that has changed since it was made.
+void require_rtl_of(const DesignInfo& design, std::uint32_t design_crc);
 
 /// Integer of a parameter for a value in its unit, rounded to nearest. Errors:
 /// std::invalid_argument with the range if it does not fit.

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <type_traits>
 #include <vector>
 
 #include "backend.hpp"
@@ -16,26 +15,36 @@
 
 namespace feltgate {
 
-/// The twin of feltgate_axes for one axis of design D, which has an engine. It has the outputs of a
+/// The twin of feltgate_axes for one axis of a design with an engine. It has the outputs of a
 /// core, the engine's words at the register port, and tells from which run of thread 0 the torque
 /// comes.
-template <class D, bool ReadBack>
 class LawCore {
  public:
+  /// `reads`: a host reads.
+  explicit LawCore(const axis::Design& d, bool reads = true) : axes_(d, reads), reads_(reads) {}
   void clock(const CoreIn& in) {
     engine_writes_ += in.reg_write && in.reg_addr >> 12 == axes_engine >> 12;
     axes_.clock(axes_in(in));
     show();
   }
-  /// Like FeltgateCore::run(): from event to event while nobody writes.
+  /// Like FeltgateCore::run(): from event to event while nobody writes. A snapshot is told of at
+  /// the end of its tick, when it is known which runs of the program began in it.
   template <class OnSnapshot>
   void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    axes_.run(axes_in(in), clocks, [&] {
-      show();
-      on_snapshot();
-    });
+    struct Watcher {
+      LawCore& core;
+      OnSnapshot& on_snapshot;
+      void event(std::int64_t, int) {}
+      void tick_ends() {
+        core.show();
+        on_snapshot();
+      }
+    } watcher{*this, on_snapshot};
+    axes_.run(
+        axes_in(in), clocks, [] {}, watcher);
     show();
   }
+  bool snapshot_due() const { return axes_.last(); }
   bool calm(const CoreIn& in, std::int64_t clocks) { return axes_.calm(axes_in(in), clocks); }
 
   const CoreOut& out() const { return out_; }
@@ -73,10 +82,10 @@ class LawCore {
   }
 
  private:
-  static AxesIn<1> axes_in(const CoreIn& in) {
+  AxesIn<1> axes_in(const CoreIn& in) const {
     AxesIn<1> to = single_axis(in);
     // Without read-back an address matters only with a write.
-    if (!ReadBack && !in.reg_write) to.reg_addr = 0;
+    if (!reads_ && !in.reg_write) to.reg_addr = 0;
     return to;
   }
   void show() {
@@ -85,40 +94,23 @@ class LawCore {
     out_.reg_busy = axes_.out().reg_busy;
   }
 
-  FeltgateAxes<D, 1, ReadBack, true> axes_;
+  FeltgateAxes<1, true> axes_;
+  bool reads_;
   CoreOut out_;
   std::int64_t engine_writes_ = 0;
 };
 
-/// The twin that an engine of design D uses.
-template <class D, bool ReadBack>
-using BackendCore =
-    std::conditional_t<D::engine != 0, LawCore<D, ReadBack>, FeltgateCore<D, ReadBack>>;
-
 /// Sets a snapshot's fields that are not outputs.
-template <class Core>
-void tell_of_law(const Core&, Snapshot*) {}
-template <class D, bool ReadBack>
-void tell_of_law(const LawCore<D, ReadBack>& core, Snapshot* s) {
-  core.tell(s);
-}
+inline void tell_of_law(const FeltgateCore&, Snapshot*) {}
+inline void tell_of_law(const LawCore& core, Snapshot* s) { core.tell(s); }
 /// The events of a law.
-template <class Core>
-std::vector<LawEvent> law_events_of(Core&) {
-  return {};
-}
-template <class D, bool ReadBack>
-std::vector<LawEvent> law_events_of(LawCore<D, ReadBack>& core) {
-  return core.law_events();
-}
+inline std::vector<LawEvent> law_events_of(FeltgateCore&) { return {}; }
+inline std::vector<LawEvent> law_events_of(LawCore& core) { return core.law_events(); }
+/// After a clock: whether its snapshot is to be told of.
+inline bool snapshot_due(const FeltgateCore& core) { return core.out().snapshot_valid; }
+inline bool snapshot_due(const LawCore& core) { return core.snapshot_due(); }
 /// Whether the target of a write could take it now.
-template <class Core>
-bool takes_write(const Core&) {
-  return true;
-}
-template <class D, bool ReadBack>
-bool takes_write(const LawCore<D, ReadBack>& core) {
-  return !core.busy();
-}
+inline bool takes_write(const FeltgateCore&) { return true; }
+inline bool takes_write(const LawCore& core) { return !core.busy(); }
 
 }  // namespace feltgate

@@ -16,10 +16,10 @@
 namespace feltgate {
 
 /// The twin leads, from event to event, and the RTL follows.
-template <class Rtl, class D>
+template <class Rtl>
 class LockStepBackend : public ClockedBackend {
  public:
-  LockStepBackend() : ClockedBackend(design_info<D>()) {}
+  explicit LockStepBackend(const DesignInfo& design) : ClockedBackend(design), core_(info_.data) {}
   const char* name() const override { return "lockstep"; }
   void trace(const std::string& path, Clock from, Clock to) override {
     core_.trace(path, from, to);
@@ -47,7 +47,7 @@ class LockStepBackend : public ClockedBackend {
         if (ahead == 0 && takes_write(twin)) issue_write(&in);
         until = std::min(until, now_ + (ahead == 0  ? 1
                                         : ahead > 0 ? ahead
-                                                    : ahead + D::clocks_per_tick));
+                                                    : ahead + info_.clocks_per_tick));
       }
       twin_watch_.time([&] {
         core_.lead(in, until - now_, [&] {
@@ -72,7 +72,7 @@ class LockStepBackend : public ClockedBackend {
 
  private:
   /// The core, after the RTL has caught up.
-  const LockStepCore<Rtl, D>& followed() const {
+  const LockStepCore<Rtl>& followed() const {
     core_.follow();
     return core_;
   }
@@ -81,7 +81,7 @@ class LockStepBackend : public ClockedBackend {
     gates_before_ = {};
   }
 
-  mutable LockStepCore<Rtl, D> core_;
+  mutable LockStepCore<Rtl> core_;
   bool traced_ = false;
   SampledWatch twin_watch_;
   GateCounts gates_before_{};

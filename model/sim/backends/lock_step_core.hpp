@@ -80,17 +80,19 @@ class OutputLog {
 
 /// The twin leads. The RTL follows in stretches, long enough that the code of each half stays in
 /// the processor's cache, and is compared with the twin's outputs.
-template <class Rtl, class D>
+template <class Rtl>
 class LockStepCore {
  public:
-  using Twin = std::conditional_t<is_axes<Rtl>, LawCore<D, true>, FeltgateCore<D>>;
+  using Twin = std::conditional_t<is_axes<Rtl>, LawCore, FeltgateCore>;
+
+  explicit LockStepCore(const axis::Design& d) : new_(d), twin_(new_), rtl_(d) {}
 
   void power_up(std::uint64_t seed, EncoderPins pins) {
     clear();
     rtl_.power_up(seed, pins);
     clock_ = mismatches_ = 0;
     first_.clear();
-    twin_ = Twin();
+    twin_ = new_;
   }
   /// Writes a waveform of the RTL; see RtlCore::trace().
   void trace(const std::string& path, Clock from, Clock to) { rtl_.trace(path, from, to); }
@@ -113,7 +115,7 @@ class LockStepCore {
       }
       const CoreOut& out = twin_.out();
       shown_outputs_.put(shown_++, out);
-      if (out.snapshot_valid) on_snapshot();
+      if (snapshot_due(twin_)) on_snapshot();
     }
   }
   void follow() {
@@ -178,8 +180,8 @@ class LockStepCore {
                 told(shown, twin));
   }
 
-  Twin twin_;
-  RtlCore<Rtl, D> rtl_;
+  Twin new_, twin_;  ///< as after power-up, and now
+  RtlCore<Rtl> rtl_;
   std::vector<Inputs> held_;
   OutputLog<longest> shown_outputs_;
   struct ShownEvent {

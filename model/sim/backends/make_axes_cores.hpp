@@ -11,9 +11,9 @@
 #include <string>
 
 #include "lock_step_core.hpp"
-#include "make_twin_axes.hpp"
 #include "rtl_axes_ports.hpp"
 #include "rtl_model.hpp"
+#include "twin_axes.hpp"
 
 namespace feltgate {
 
@@ -40,15 +40,17 @@ std::string port_difference(const AxesOut<N>& rtl, const AxesOut<N>& twin) {
   return {};
 }
 
-/// Rtl is Verilator's class of feltgate_axes for design D. The twin leads and gives the results of
-/// a run; the RTL follows in every clock.
-template <class Rtl, class D>
-class LockStepAxes : public TwinAxes<D> {
-  using Base = TwinAxes<D>;
+/// Rtl is Verilator's class of feltgate_axes for this design. The twin leads and gives the results
+/// of a run; the RTL follows in every clock.
+template <class Rtl, int N>
+class LockStepAxes : public TwinAxes<N> {
+  using Base = TwinAxes<N>;
   using Base::in_, Base::twin_, Base::now_, Base::stop_, Base::mismatches_, Base::first_mismatch_,
-      Base::first_mismatch_clock_, Base::N;
+      Base::first_mismatch_clock_;
 
  public:
+  explicit LockStepAxes(const DesignInfo& design)
+      : Base(design), bits_(design.data), half_clock_ps_(500'000'000'000 / design.clock_hz) {}
   void trace(const std::string& path, Clock from, Clock to) override {
     path_ = path;
     from_ = from;
@@ -64,17 +66,17 @@ class LockStepAxes : public TwinAxes<D> {
     rtl_->reset(4);
   }
   bool beside() const override { return true; }
-  void drive() override { drive_axes<D, N>(**rtl_, in_); }
+  void drive() override { drive_axes<N>(**rtl_, in_); }
 
   void follow() override {
     const bool dumping = !path_.empty() && now_ >= from_ && (to_ < 0 || now_ <= to_);
     if (dumping && !rtl_->tracing()) rtl_->trace(path_, "1ps");
     (*rtl_)->stop_i = in_.stop;
     rtl_->low();
-    if (dumping) rtl_->dump(static_cast<std::uint64_t>(2 * now_ * half_clock_ps));
+    if (dumping) rtl_->dump(static_cast<std::uint64_t>(2 * now_ * half_clock_ps_));
     (*rtl_)->stop_i = false;
     rtl_->high();
-    if (dumping) rtl_->dump(static_cast<std::uint64_t>((2 * now_ + 1) * half_clock_ps));
+    if (dumping) rtl_->dump(static_cast<std::uint64_t>((2 * now_ + 1) * half_clock_ps_));
     const std::string wrong = compare();
     if (wrong.empty()) return;
     if (mismatches_++ > 0) return;
@@ -87,7 +89,7 @@ class LockStepAxes : public TwinAxes<D> {
     const Rtl& rtl = **rtl_;
     const AxesOut<N>& twin = twin_->out();
     for (std::size_t n = 0; n < N; ++n) {
-      const CoreOut a = read_axis<D>(rtl, static_cast<int>(n));
+      const CoreOut a = read_axis(rtl, bits_, static_cast<int>(n));
       CoreOut b = twin.axis[n];
       b.reg_rdata = 0;
       b.reg_busy = false;
@@ -102,19 +104,17 @@ class LockStepAxes : public TwinAxes<D> {
     return port_difference<N>(port, twin);
   }
 
-  static constexpr Clock half_clock_ps = 500'000'000'000 / D::clock_hz;
-
+  PortBits bits_;
+  Clock half_clock_ps_;
   std::optional<RtlModel<Rtl>> rtl_;
   std::string path_;
   Clock from_ = 0, to_ = -1;
 };
 
-/// Makes the back-end of this kind. Errors: std::invalid_argument for an unknown kind.
-template <class Rtl, class D>
-std::unique_ptr<AxesCores> make_design_axes(const std::string& kind) {
-  if (kind == "twin") return std::make_unique<TwinAxes<D>>();
-  if (kind == "lockstep") return std::make_unique<LockStepAxes<Rtl, D>>();
-  throw std::invalid_argument("engine \"" + kind + "\" is unknown; choose twin or lockstep");
+/// Makes the back-end "lockstep" of the design whose Verilated class is Rtl.
+template <class Rtl, int N>
+std::unique_ptr<AxesCores> make_rtl_axes(const DesignInfo& design) {
+  return std::make_unique<LockStepAxes<Rtl, N>>(design);
 }
 
 }  // namespace feltgate

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The back-ends of one design: RTL, twin, and both in lock-step. Needs the Verilated core; without
-// it use twin_backend.hpp. Documentation: docs/architecture.md
+// The back-ends of a Verilated core: alone, and in lock-step with the twin. Documentation:
+// docs/architecture.md
 #pragma once
 
 #include <memory>
@@ -12,15 +12,14 @@
 #include "clocked_backend.hpp"
 #include "lock_step_backend.hpp"
 #include "rtl_core.hpp"
-#include "twin_backend.hpp"
 
 namespace feltgate {
 
 /// The Verilated core as a back-end, clock by clock.
-template <class Rtl, class D>
+template <class Rtl>
 class RtlBackend : public ClockedBackend {
  public:
-  RtlBackend() : ClockedBackend(design_info<D>()) {}
+  explicit RtlBackend(const DesignInfo& design) : ClockedBackend(design), core_(info_.data) {}
   const char* name() const override { return "rtl"; }
   void trace(const std::string& path, Clock from, Clock to) override {
     core_.trace(path, from, to);
@@ -41,17 +40,15 @@ class RtlBackend : public ClockedBackend {
     core_.power_up(seed, pins);
     told_.clear();
   }
-  RtlCore<Rtl, D> core_;
+  RtlCore<Rtl> core_;
   std::vector<LawEvent> told_;
 };
 
-/// Makes the back-end "rtl", "twin" or "lockstep". Errors: std::invalid_argument for another kind.
-template <class Rtl, class D>
-std::unique_ptr<Backend> make_design_backend(const std::string& kind) {
-  if (kind == "rtl") return std::make_unique<RtlBackend<Rtl, D>>();
-  if (kind == "twin") return std::make_unique<TwinBackend<D>>();
-  if (kind == "lockstep") return std::make_unique<LockStepBackend<Rtl, D>>();
-  throw std::invalid_argument("engine \"" + kind + "\" is unknown; choose rtl, twin or lockstep");
+/// Makes the back-end "rtl" or "lockstep" of the design whose Verilated class is Rtl.
+template <class Rtl>
+std::unique_ptr<Backend> make_rtl(const DesignInfo& design, bool lock_step) {
+  if (lock_step) return std::make_unique<LockStepBackend<Rtl>>(design);
+  return std::make_unique<RtlBackend<Rtl>>(design);
 }
 
 }  // namespace feltgate

@@ -43,18 +43,23 @@ void set_bits(Port& port, int first, int width, std::uint64_t value) {
   }
 }
 
-/// Sets every input except clock and reset of N axes of design D; the engine gives the torques.
-template <class D, int N, class Rtl>
+/// Sets every input except clock and reset of N axes; the engine gives the torques.
+template <int N, class Rtl>
 void drive_axes(Rtl& rtl, const AxesIn<N>& in) {
+  unsigned a = 0, b = 0, z = 0, data = 0;
   for (int n = 0; n < N; ++n) {
     const auto& axis = in.axis[static_cast<std::size_t>(n)];
-    set_bits(rtl.enc_a_i, n, 1, axis.encoder.a);
-    set_bits(rtl.enc_b_i, n, 1, axis.encoder.b);
-    set_bits(rtl.enc_z_i, n, 1, axis.encoder.z);
-    set_bits(rtl.encoder_data_i, n, 1, axis.encoder_data);
+    a |= unsigned{axis.encoder.a} << n;
+    b |= unsigned{axis.encoder.b} << n;
+    z |= unsigned{axis.encoder.z} << n;
+    data |= unsigned{axis.encoder_data} << n;
     set_bits(rtl.set_zero_i, n, 1, axis.set_zero);
     set_bits(rtl.scene_i, 4 * n, 4, axis.scene);
   }
+  set_enc_a_i(rtl, a, 0);
+  set_enc_b_i(rtl, b, 0);
+  set_enc_z_i(rtl, z, 0);
+  set_encoder_data_i(rtl, data, 0);
   rtl.arm_i = in.arm;
   rtl.stop_i = in.stop;
   rtl.reg_addr_i = in.reg_addr;
@@ -63,10 +68,9 @@ void drive_axes(Rtl& rtl, const AxesIn<N>& in) {
   rtl.reg_read_i = in.reg_read;
 }
 
-/// Every output of axis n after an edge, for design D; read data belong to the device, not the
-/// axis.
-template <class D, class Rtl>
-CoreOut read_axis(const Rtl& rtl, int n) {
+/// Every output of axis n after an edge; read data belong to the device, not the axis.
+template <class Rtl>
+CoreOut read_axis(const Rtl& rtl, const PortBits& bits, int n) {
   using C = Map::C;
   const auto number = [n](const auto& port, int width) {
     return sign_extend(bits_of(port, n * width, width), width);
@@ -76,13 +80,13 @@ CoreOut read_axis(const Rtl& rtl, int n) {
   };
   CoreOut o;
   o.position = static_cast<std::int32_t>(word(rtl.position_o, 32));
-  o.velocity = number(rtl.velocity_o, D::f.velocity.width());
-  o.tau_hat = static_cast<std::int32_t>(number(rtl.tau_hat_o, D::f.torque.width()));
-  o.tau_ref = static_cast<std::int32_t>(number(rtl.tau_ref_o, D::f.torque.width()));
-  o.current_ref = static_cast<std::int32_t>(number(rtl.current_ref_o, D::f.current.width()));
-  o.voltage = static_cast<std::int32_t>(number(rtl.voltage_o, D::f.voltage.width()));
-  o.duty = static_cast<std::int16_t>(number(rtl.duty_o, D::f.duty.width()));
-  o.duty_active = static_cast<std::int16_t>(number(rtl.duty_active_o, D::f.duty.width()));
+  o.velocity = number(rtl.velocity_o, bits.velocity);
+  o.tau_hat = static_cast<std::int32_t>(number(rtl.tau_hat_o, bits.torque));
+  o.tau_ref = static_cast<std::int32_t>(number(rtl.tau_ref_o, bits.torque));
+  o.current_ref = static_cast<std::int32_t>(number(rtl.current_ref_o, bits.current));
+  o.voltage = static_cast<std::int32_t>(number(rtl.voltage_o, bits.voltage));
+  o.duty = static_cast<std::int16_t>(number(rtl.duty_o, bits.duty));
+  o.duty_active = static_cast<std::int16_t>(number(rtl.duty_active_o, bits.duty));
   o.gates =
       static_cast<std::uint8_t>(word(rtl.gate_a_hi_o, 1) | word(rtl.gate_a_lo_o, 1) << 1 |
                                 word(rtl.gate_b_hi_o, 1) << 2 | word(rtl.gate_b_lo_o, 1) << 3);
@@ -94,8 +98,8 @@ CoreOut read_axis(const Rtl& rtl, int n) {
   o.first_fault = static_cast<std::uint8_t>(word(rtl.first_fault_o, C::faults_first_width));
   o.tick_count = rtl.tick_count_o;
   o.snapshot_valid = rtl.snapshot_valid_o != 0;
-  o.word_valid = rtl.word_valid_o != 0;
-  o.word_slot = rtl.word_slot_o;
+  o.word_valid = word(rtl.word_valid_o, 1) != 0;
+  o.word_slot = static_cast<std::uint8_t>(word(rtl.word_slot_o, 6));
   o.word_data = word(rtl.word_data_o, 32);
   return o;
 }

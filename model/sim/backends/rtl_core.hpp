@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The Verilated core of one design with the twin's types. Documentation: docs/architecture.md
+// The Verilated core of a design with the twin's types. Documentation: docs/architecture.md
 #pragma once
 
 #include <algorithm>
@@ -9,16 +9,19 @@
 #include <string>
 
 #include "feltgate/feltgate_core.hpp"
+#include "feltgate/fixed.hpp"
 #include "rtl_model.hpp"
 #include "rtl_ports.hpp"
 
 namespace feltgate {
 
-/// Rtl is Verilator's class of feltgate_core for design D.
-template <class Rtl, class D>
+/// Rtl is Verilator's class of feltgate_core for this design.
+template <class Rtl>
 class RtlCore {
  public:
-  RtlCore() { power_up(1, {}); }
+  explicit RtlCore(const axis::Design& d) : bits_(d), clock_hz_(d.wide("CLOCK_HZ")) {
+    power_up(1, {});
+  }
 
   /// A new chip: registers filled with random bits from `seed`, then four clocks of reset.
   void power_up(std::uint64_t seed, EncoderPins pins) {
@@ -44,7 +47,7 @@ class RtlCore {
   }
   /// Sets the inputs of the next clocks.
   void drive(const CoreIn& in) {
-    drive_inputs<D>(**rtl_, in);
+    drive_inputs(**rtl_, bits_, in);
     stop_ = in.stop;
   }
   /// One clock with the inputs that drive() has set.
@@ -61,7 +64,7 @@ class RtlCore {
     ++now_;
   }
 
-  CoreOut out() const { return read_outputs<D>(**rtl_); }
+  CoreOut out() const { return read_outputs(**rtl_, bits_); }
   /// The law's event in this clock, of a core with an engine.
   std::optional<LawEvent> law_event() const { return read_law_event(**rtl_); }
 
@@ -75,12 +78,14 @@ class RtlCore {
 
  private:
   /// Time of so many half clocks, rounded to nearest; a period need not be a whole number of ps.
-  static std::uint64_t picoseconds(std::int64_t half_clocks) {
-    constexpr std::int64_t half_clocks_per_s = 2 * D::clock_hz;
+  std::uint64_t picoseconds(std::int64_t half_clocks) const {
+    const std::int64_t half_clocks_per_s = 2 * clock_hz_;
     const int128_t ps = int128_t{half_clocks} * 1'000'000'000'000 + half_clocks_per_s / 2;
     return static_cast<std::uint64_t>(ps / half_clocks_per_s);
   }
 
+  PortBits bits_;
+  std::int64_t clock_hz_;
   std::optional<RtlModel<Rtl>> rtl_;
   bool stop_ = false;
   std::string trace_path_;

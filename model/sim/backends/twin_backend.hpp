@@ -1,39 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of one design as a back-end, and its chains. Documentation:
-// docs/architecture.md
+// The twin of any design as a back-end. Documentation: docs/architecture.md
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
-#include "../reference/chain.hpp"
-#include "../reference/real_chain.hpp"
 #include "clocked_backend.hpp"
 #include "law_core.hpp"
 
 namespace feltgate {
 
-/// The twin as a back-end, from event to event.
-template <class D>
+/// The twin as a back-end, from event to event. Core: FeltgateCore, or LawCore of a design with an
+/// engine.
+template <class Core>
 class TwinBackend : public ClockedBackend {
  public:
-  TwinBackend() : ClockedBackend(design_info<D>()) {}
+  explicit TwinBackend(const DesignInfo& design)
+      : ClockedBackend(design),
+        core_(info_.data, false) {}  // nobody reads registers through a back-end
   const char* name() const override { return "twin"; }
 
-  /// Goes from event to event: pins, register writes, end of the stretch. Clocks in which nothing
-  /// happens that a caller could ask for are deferred. Flattened, it would take three times as long
-  /// to compile.
+  /// Goes from event to event: pins, register writes, end of the stretch. The last clocks, in which
+  /// nothing happens that a caller could ask for, are deferred, so that the core gets whole ticks.
   void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) override {
     snapshots_.clear();
     if (first != last) events_.push(first, last);
     CoreIn in = inputs();
     const Clock end = now_ + clocks;
-    if (!gate_times_ && !sensor_ && writes_.empty() && events_.next(end) >= end) {
+    const bool may_wait = !gate_times_ && !sensor_;
+    if (may_wait && writes_.empty() && events_.next(end) >= end) {
       in.encoder = events_.pins();
       if (core_.calm(in, waiting_ + clocks)) {
         waiting_ += clocks;
@@ -55,7 +54,7 @@ class TwinBackend : public ClockedBackend {
       if (!writes_.empty() && clock_of_tick == host_write_clock && takes_write(core_)) {
         issue_write(&in);
         core_.clock(in);
-        if (core_.out().snapshot_valid) tell();
+        if (snapshot_due(core_)) tell();
         in.reg_write = false;
         ++now_;
         continue;
@@ -63,7 +62,17 @@ class TwinBackend : public ClockedBackend {
       Clock until = std::min(held, events_.next(end));
       if (!writes_.empty()) {
         const int ahead = host_write_clock - clock_of_tick;
-        until = std::min(until, now_ + (ahead > 0 ? ahead : ahead + D::clocks_per_tick));
+        until = std::min(until, now_ + (ahead > 0 ? ahead : ahead + info_.clocks_per_tick));
+      }
+      const Clock last = (clock_of_tick + until - now_) % info_.clocks_per_tick;
+      if (may_wait && writes_.empty() && until == end && last < until - now_) {
+        core_.run(in, until - last - now_, tell);
+        now_ = until - last;
+        if (last > 0 && core_.calm(in, last)) {
+          waiting_ = last;
+          now_ = end;
+          return;
+        }
       }
       core_.run(in, until - now_, tell);
       now_ = until;
@@ -92,8 +101,6 @@ class TwinBackend : public ClockedBackend {
   int on_time(std::size_t leg) const override { return core_.on_time(leg); }
 
  private:
-  using Core = BackendCore<D, false>;  // nobody reads registers through a back-end
-
   /// Runs the deferred clocks; call it before the inputs change.
   void settle() {
     CoreIn in = inputs();
@@ -102,7 +109,7 @@ class TwinBackend : public ClockedBackend {
     waiting_ = 0;
   }
   void reset_core(std::uint64_t, EncoderPins) override {
-    core_ = Core();
+    core_ = Core(info_.data, false);
     waiting_ = 0;
     gates_before_ = {};
   }
@@ -111,23 +118,5 @@ class TwinBackend : public ClockedBackend {
   bool gate_times_ = true;
   GateCounts gates_before_{};
 };
-
-/// Makes the chain "fixed", "float", "double" or "quad". Errors: std::invalid_argument for another
-/// kind.
-template <class D>
-std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
-  if constexpr (measures_spans<D>) {
-    throw std::invalid_argument("chain \"" + kind + "\" of design " + D::name +
-                                ": M/T needs the clocks of the edges, which a chain by ticks does "
-                                "not have; choose the back-ends rtl,twin");
-  } else {
-    if (kind == "fixed") return std::make_unique<Chain<D, Fixed>>("fixed");
-    if (kind == "float") return std::make_unique<Chain<D, Real<float>>>("float");
-    if (kind == "double") return std::make_unique<Chain<D, Real<double>>>("double");
-    if (kind == "quad") return std::make_unique<Chain<D, Real<Quad>>>("quad");
-  }
-  throw std::invalid_argument("chain \"" + kind +
-                              "\" is unknown; choose fixed, float, double or quad");
-}
 
 }  // namespace feltgate

@@ -49,9 +49,8 @@ struct BitColumn {
   int Row::*value;
 };
 constexpr BitColumn bit_columns[] = {
-    {"limits", "bit set of the limits that hold the torque (docs/architecture.md)",
-     &Row::limits},
-    {"faults", "bit set of the latched faults (docs/blocks/supervisor.md)", &Row::faults}};
+    {"limits", "bit set of the limits that hold the torque (docs/architecture.md)", &Row::limits},
+    {"faults", "bit set of the latched faults (docs/blocks/safety.md)", &Row::faults}};
 
 Column column(const RowColumn& c) {
   return {c.name, c.unit, c.meaning, c.digits, ColumnValue(c.value)};

@@ -223,7 +223,6 @@ class Lugre {
     return p_.stiffness_nm_rad * mean_rad + damping_per_dt_ * step_rad;
   }
 
-
  private:
   static constexpr double kNegligible = 40.0;  // exp(-40) is below one rounding of the sum
 

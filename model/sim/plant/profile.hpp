@@ -21,8 +21,8 @@ struct Segment {
   double amplitude = 0.0;  ///< sine: amplitude; its centre makes the value continuous
   double frequency_hz = 0.0;
   double phase_rad = 0.0;  ///< pi/2: starts and ends at rest
-  double ease_s = 0.0;     ///< ramp: time to its speed from rest at the beginning, and back at the end
-  int line = 0;            ///< line in the scene file; 0: not from a file
+  double ease_s = 0.0;  ///< ramp: time to its speed from rest at the beginning, and back at the end
+  int line = 0;         ///< line in the scene file; 0: not from a file
 };
 
 using Profile = std::vector<Segment>;

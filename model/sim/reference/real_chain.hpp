@@ -11,12 +11,22 @@
 #include <string>
 
 #include "feltgate/generated/causes.hpp"
-#include "feltgate/ramp.hpp"
+#include "feltgate/generated/map.hpp"
 
 namespace feltgate {
 
 /// Limits of the core that a chain does not have.
 inline constexpr unsigned limits_of_core = limit::gates_closed | limit::hold | limit::chatter;
+
+/// Conditions that keep a torque from growing.
+struct Relief {
+  bool frozen = false;   ///< the reference may only move towards 0
+  bool derated = false;  ///< hold_limit limits too
+};
+/// The relief that bits of a core's limits word stand for.
+constexpr Relief relief_of(unsigned limits) {
+  return {((limits >> Map::L::chatter) & 1U) != 0, ((limits >> Map::L::hold) & 1U) != 0};
+}
 
 /// Inputs of one tick.
 struct ChainIn {
@@ -27,7 +37,7 @@ struct ChainIn {
   int mode = 0;
   bool restart = false;      ///< the torque may jump, so it ramps
   Relief relief{};           ///< from the encoder's monitor and the hold timer of the core
-  std::int32_t current = 0;  ///< measured by a current loop, [1,1,17] of full scale
+  std::int32_t current = 0;  ///< measured, in the current's format
 };
 
 struct ChainOut {

@@ -11,32 +11,31 @@
 #include <type_traits>
 
 #include "feltgate/core_ports.hpp"
-#include "feltgate/current_loop.hpp"
 
 /// X(type, name) for every port but clk_i and rst_ni. Signed numbers are two's complement words in
-/// the low bits. CurrentData is bool or, with two modulators, a word.
-#define FELTGATE_CORE_INPUTS(X)  \
-  X(bool, enc_a_i)               \
-  X(bool, enc_b_i)               \
-  X(bool, enc_z_i)               \
-  X(bool, encoder_data_i)        \
-  X(std::uint32_t, hall_i)       \
-  X(CurrentData, current_data_i) \
-  X(bool, driver_fault_i)        \
-  X(bool, arm_i)                 \
-  X(bool, stop_i)                \
-  X(bool, set_zero_i)            \
-  X(std::uint32_t, scene_i)      \
-  X(std::uint32_t, law_torque_i) \
-  X(bool, law_late_i)            \
-  X(bool, law_restart_i)         \
-  X(bool, axis_fault_i)          \
-  X(bool, axis_silent_i)         \
-  X(bool, axis_blocked_i)        \
-  X(bool, axis_testing_i)        \
-  X(bool, axis_waits_i)          \
-  X(std::uint32_t, reg_addr_i)   \
-  X(std::uint32_t, reg_wdata_i)  \
+/// the low bits; of current_data_i bit n is the line of modulator n.
+#define FELTGATE_CORE_INPUTS(X)    \
+  X(bool, enc_a_i)                 \
+  X(bool, enc_b_i)                 \
+  X(bool, enc_z_i)                 \
+  X(bool, encoder_data_i)          \
+  X(std::uint32_t, hall_i)         \
+  X(std::uint32_t, current_data_i) \
+  X(bool, driver_fault_i)          \
+  X(bool, arm_i)                   \
+  X(bool, stop_i)                  \
+  X(bool, set_zero_i)              \
+  X(std::uint32_t, scene_i)        \
+  X(std::uint32_t, law_torque_i)   \
+  X(bool, law_late_i)              \
+  X(bool, law_restart_i)           \
+  X(bool, axis_fault_i)            \
+  X(bool, axis_silent_i)           \
+  X(bool, axis_blocked_i)          \
+  X(bool, axis_testing_i)          \
+  X(bool, axis_waits_i)            \
+  X(std::uint32_t, reg_addr_i)     \
+  X(std::uint32_t, reg_wdata_i)    \
   X(bool, reg_write_i)
 #define FELTGATE_CORE_OUTPUTS(X)  \
   X(bool, gate_a_hi_o)            \
@@ -84,22 +83,14 @@ namespace feltgate::systemc {
 template <class D>
 using CoreWord = std::conditional_t<(D::f.velocity.width() > 32), std::uint64_t, std::uint32_t>;
 
-/// Of the modulators of a current loop: a line, or in the low bits those of two.
-template <class D>
-using CurrentDataOf = std::conditional_t<(controlled_currents<D> > 1), std::uint32_t, bool>;
-
 /// Signals at the inputs of a core, which several may share.
-template <class CurrentData>
-struct CoreInputsWith : sc_core::sc_module {
-  explicit CoreInputsWith(const sc_core::sc_module_name& name) : sc_module(name) {}
+struct CoreInputs : sc_core::sc_module {
+  explicit CoreInputs(const sc_core::sc_module_name& name) : sc_module(name) {}
 
   sc_core::sc_signal<bool> rst_ni{"rst_ni", true};  ///< the twin needs no reset, the RTL does
 #define FELTGATE_SIGNAL(type, name) sc_core::sc_signal<type> name{#name};
   FELTGATE_CORE_INPUTS(FELTGATE_SIGNAL)
 };
-
-/// Of a core with one modulator or none.
-using CoreInputs = CoreInputsWith<bool>;
 
 /// Signals at the outputs of one core of design D.
 template <class D>
@@ -128,7 +119,7 @@ struct CoreOutputs : sc_core::sc_module {
 
 /// Connects a TwinModule<D> or the Verilated core of D.
 template <class D, class Module>
-void bind(Module& core, sc_core::sc_in<bool>::in_if_type& clk, CoreInputsWith<CurrentDataOf<D>>& in,
+void bind(Module& core, sc_core::sc_in<bool>::in_if_type& clk, CoreInputs& in,
           CoreOutputs<D>& out) {
   core.clk_i(clk);
   core.rst_ni(in.rst_ni);
@@ -152,7 +143,7 @@ struct Board : sc_core::sc_module {
   }
 
   sc_core::sc_clock clk;
-  CoreInputsWith<CurrentDataOf<D>> in{"in"};
+  CoreInputs in{"in"};
   CoreOutputs<D> out{"out"};
 };
 

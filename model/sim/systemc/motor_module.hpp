@@ -80,8 +80,8 @@ class MotorModule : public sc_core::sc_module {
 
 /// Connects the motor to the gates and the encoder's pins of a core.
 template <class D>
-void bind(MotorModule& motor, sc_core::sc_in<bool>::in_if_type& clk,
-          CoreInputsWith<CurrentDataOf<D>>& in, CoreOutputs<D>& out) {
+void bind(MotorModule& motor, sc_core::sc_in<bool>::in_if_type& clk, CoreInputs& in,
+          CoreOutputs<D>& out) {
   motor.clk_i(clk);
   motor.rst_ni(in.rst_ni);
   motor.gate_a_hi_i(out.gate_a_hi_o);

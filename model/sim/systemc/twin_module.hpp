@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of a design as an sc_module with the pins of rtl/core/feltgate_core.sv.
+// The twin of a design as an sc_module with the pins of model/sim/backends/feltgate_core.sv.
 // Documentation: docs/library.md
 #pragma once
 
@@ -14,8 +14,6 @@ namespace feltgate::systemc {
 
 template <class D>
 class TwinModule : public sc_core::sc_module {
-  using CurrentData = CurrentDataOf<D>;
-
  public:
   sc_core::sc_in<bool> clk_i{"clk_i"}, rst_ni{"rst_ni"};
 #define FELTGATE_PORT(type, name) sc_core::sc_in<type> name{#name};
@@ -102,7 +100,7 @@ class TwinModule : public sc_core::sc_module {
     encoder_clock_o.write((o.serial & 2u) != 0);
     encoder_command_o.write((o.serial & 4u) != 0);
     current_clock_o.write(o.current_clock);
-    current_o.write(static_cast<std::uint32_t>(o.current) & 0x7ffff);
+    current_o.write(word(o.current, D::f.current));
     heartbeat_o.write(o.heartbeat);
     reg_busy_o.write(o.reg_busy);
     reg_rdata_o.write(o.reg_rdata);
@@ -129,7 +127,7 @@ class TwinModule : public sc_core::sc_module {
     word_data_o.write(o.word_data);
   }
 
-  FeltgateCore<D> core_;
+  FeltgateCore core_{design_of<D>()};
   bool stop_seen_ = false;  ///< since the last clock
 };
 

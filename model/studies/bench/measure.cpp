@@ -233,7 +233,7 @@ Result measure(const std::vector<std::unique_ptr<Runner>>& runners, const std::v
 // The time of TwinDevice::tick_to.
 
 double device_ns_per_tick(std::size_t ticks) {
-  TwinDevice<Lever> device;
+  TwinDevice device(design_info<Lever>());
   device.select("wall");
   device.set("self_test_pulse", 0);  // no self-test, for the lever does not rest
   device.set("wall_contact", device.counts(0.005));

@@ -6,11 +6,11 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "feltgate/generated/lever.hpp"
 #include "sim/backends/clocked_backend.hpp"
 #include "sim/reference/chain.hpp"
-#include "sim/reference/control_chain.hpp"
 
 namespace feltgate::bench {
 
@@ -22,8 +22,8 @@ namespace {
 template <class Chain, class Access>
 class TickRunner : public Runner {
  public:
-  TickRunner(const char* name, Arithmetic arithmetic)
-      : Runner(name, arithmetic), chain_(std::make_unique<Chain>()) {}
+  TickRunner(const char* name, Arithmetic arithmetic, std::unique_ptr<Chain> chain)
+      : Runner(name, arithmetic), chain_(std::move(chain)) {}
 
   void prepare(const Work&) override { chain_->reset(); }
   void run(const Work& work) override {
@@ -58,8 +58,6 @@ class TickRunner : public Runner {
   std::unique_ptr<Chain> chain_;
 };
 
-double si(std::int64_t raw, Format f) { return std::ldexp(static_cast<double>(raw), -f.fraction); }
-
 double torque_constant() {
   for (const ParameterInfo& p : Lever::parameters) {
     if (p.address == Lever::A::torque_constant) return p.si;
@@ -67,45 +65,35 @@ double torque_constant() {
   throw std::logic_error("the design has no torque constant");
 }
 
-TickResult of_integers(const RawTick& raw) {
-  TickResult r;
-  r.raw = raw;
-  r.velocity_rad_s = si(raw[0], Lever::f.velocity);
-  r.tau_hat_nm = si(raw[1], Lever::f.torque);
-  r.torque_nm = torque_constant() * si(raw[3], Lever::f.current);
-  return r;
-}
-
 /// The laws in policy N.
 template <class N>
 struct Laws {
-  using Chain = ControlChain<Lever, N>;
-  static void write(Chain& chain, const Work::TickWrite& w) {
+  static void write(Chain<N>& chain, const Work::TickWrite& w) {
     if constexpr (N::is_fixed) {
-      chain.words().set_raw(w.address, w.data);
+      chain.set_word(w.address, w.data);
     } else {
-      chain.words().set_value(w.address, static_cast<typename Words<Lever, N>::Stored>(w.value));
+      chain.set_parameter(w.address, w.value);
     }
   }
-  static TickResult show(const Chain& c) {
-    if constexpr (N::is_fixed) {
-      return of_integers({N::raw(c.velocity()), N::raw(c.tau_hat()), N::raw(c.tau_ref()),
-                          N::raw(c.control().current), N::raw(c.control().voltage),
-                          N::raw(c.control().duty), c.limits()});
-    } else {
-      TickResult r;
-      r.velocity_rad_s = static_cast<double>(c.velocity());
-      r.tau_hat_nm = static_cast<double>(c.tau_hat());
-      r.torque_nm = torque_constant() * static_cast<double>(c.control().current);
-      return r;
+  static TickResult show(const Chain<N>& chain) {
+    const ChainOut& out = chain.out();
+    TickResult r;
+    if (const ChainRaw* raw = chain.raw()) {
+      r.raw = {raw->velocity, raw->tau_hat, raw->tau_ref, raw->current_ref,
+               raw->voltage,  raw->duty,    raw->limits};
     }
+    r.velocity_rad_s = out.velocity_rad_s;
+    r.tau_hat_nm = out.tau_hat_nm;
+    r.torque_nm = torque_constant() * out.current_a;
+    return r;
   }
 };
 
 template <class N>
 std::unique_ptr<Runner> laws(const char* name) {
-  return std::make_unique<TickRunner<ControlChain<Lever, N>, Laws<N>>>(
-      name, N::is_fixed ? Arithmetic::integer : Arithmetic::real);
+  return std::make_unique<TickRunner<Chain<N>, Laws<N>>>(
+      name, N::is_fixed ? Arithmetic::integer : Arithmetic::real,
+      std::make_unique<Chain<N>>(name, design_info<Lever>()));
 }
 
 struct Known {
@@ -119,10 +107,10 @@ constexpr Known known[] = {
     {"rtl", pins},
     {"twin_clock", pins},
     {"twin_event", pins},
-    {"twin_tick", laws<Fixed>},
-    {"double", laws<Real<double>>},
-    {"float", laws<Real<float>>},
-    {"quad", laws<Real<Quad>>},
+    {"twin_tick", laws<axis::Fixed>},
+    {"double", laws<axis::Real<double>>},
+    {"float", laws<axis::Real<float>>},
+    {"quad", laws<axis::Real<Quad>>},
 };
 
 }  // namespace
@@ -160,8 +148,8 @@ class ClockByClock : public ClockedBackend {
   }
 
  private:
-  void reset_core(std::uint64_t, EncoderPins) override { core_ = FeltgateCore<Lever>(); }
-  FeltgateCore<Lever> core_;
+  void reset_core(std::uint64_t, EncoderPins) override { core_ = FeltgateCore(info_.data); }
+  FeltgateCore core_{info_.data};
 };
 
 }  // namespace

@@ -16,67 +16,49 @@ namespace feltgate::controllers {
 
 namespace {
 
-/// Wide enough for an observer that is fed back; `lever` feeds none back.
-constexpr Format fed_gain{1, 3, 14};
-
-constexpr BaseFormats fed(BaseFormats b) {
-  b.observer_gain = fed_gain;
-  return b;
-}
-constexpr auto fed_parameters() {
-  std::array<ParameterInfo, sizeof(Lever::parameters) / sizeof(ParameterInfo)> all{};
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i] = Lever::parameters[i];
-    if (all[i].address == Lever::A::observer_gain) all[i].format = fed_gain;
+/// Design `lever` with a word observer_gain wide enough for an observer that is fed back; `lever`
+/// feeds none back. Another encoder: a window of the velocity estimator whose gain is 2^shift, near
+/// that of `lever`.
+DesignInfo fed_lever(int lines = encoder_lines[0]) {
+  constexpr Format fed_gain{1, 3, 14};
+  static_assert(fed_gain.width() == Lever::P::observer_gain.width());
+  DesignInfo design = design_info<Lever>();
+  auto& constants = design.data.constants;
+  constants["P_OBSERVER_GAIN_F"] = fed_gain.fraction;
+  for (ParameterInfo& p : design.parameters) {
+    if (p.address == Lever::A::observer_gain) p.format = p.field = fed_gain;
   }
-  return all;
+  if (lines != encoder_lines[0]) {
+    const int shift = lines >= 2500 ? 0 : 2;
+    const int window = 1'570'796 / lines;  // ticks in which a count is 1 rad/s
+    constants["VELOCITY_SHIFT"] = shift;
+    constants["M1"] = (window + (1 << shift) / 2) >> shift;
+  }
+  return design;
 }
 
-/// Design `lever` with that word.
-struct FedLever : Lever {
-  struct P : Lever::P {
-    static constexpr Format observer_gain = fed_gain;
+template <class N>
+std::unique_ptr<RealChain> make(Kind kind, const DesignInfo& design, const Tuning& t) {
+  const auto with = [&](auto law) -> std::unique_ptr<RealChain> {
+    return std::make_unique<Chain<N, decltype(law)>>(name_of(kind), design, law);
   };
-  static constexpr BaseFormats base = fed(Lever::base);
-  static constexpr Formats f = derive(base);
-  static constexpr auto parameters = fed_parameters();
-};
-
-/// Another encoder: a window of the velocity estimator whose gain is 2^shift, near that of `lever`.
-template <int Lines>
-struct WithLines : FedLever {
-  static constexpr int shift = Lines >= 2500 ? 0 : 2;
-  static constexpr int window = 1'570'796 / Lines;  ///< ticks in which a count is 1 rad/s
-  static constexpr int velocity_shift = shift;
-  static constexpr int m1 = (window + (1 << shift) / 2) >> shift;
-};
-
-template <class D, class N, template <class, class> class Law>
-std::unique_ptr<RealChain> tuned(Kind kind, const Tuning& tuning) {
-  auto chain = std::make_unique<Chain<D, N, ControlledChain<D, N, Law>>>(name_of(kind));
-  chain->control().tune(tuning);
-  return chain;
-}
-
-template <class D, class N>
-std::unique_ptr<RealChain> make(Kind kind, const Tuning& t) {
-  if (kind == Kind::pi) return tuned<D, N, PiLaw>(kind, t);
-  if (kind == Kind::pid) return tuned<D, N, PidWithDerivative>(kind, t);
-  if (kind == Kind::reaction) return tuned<D, N, ReactionLaw>(kind, t);
-  auto chain = tuned<D, N, AsIs>(kind, t);
+  if (kind == Kind::pi) return with(PiLaw<N>(design.data, t));
+  if (kind == Kind::pid) return with(PidWithDerivative<N>(design.data, t));
+  if (kind == Kind::reaction) return with(ReactionLaw<N>(design.data, t));
+  auto chain = with(AsIs<N>());
   if (kind == Kind::observer) {
-    chain->set_parameter(D::A::torque_gain, t.share / t.torque_constant_nm_a);
-    chain->set_parameter(D::A::observer_gain, (1 - t.share) / t.torque_constant_nm_a);
+    chain->set_parameter(Map::A::torque_gain, t.share / t.torque_constant_nm_a);
+    chain->set_parameter(Map::A::observer_gain, (1 - t.share) / t.torque_constant_nm_a);
   }
   return chain;
 }
 
 /// Bits of the observer's state.
-constexpr int observer_bits = FedLever::f.observer.width();
+constexpr int observer_bits = Lever::f.observer.width();
 /// Of the observer (Ktn*I, g*Jn*w, a1), and from the torque to the current.
 constexpr int shared_multiplications = 3 + 1;
 /// LUT4 equivalents of the blocks of `lever`, measured: CMake reads docs/verification/areas.json.
-constexpr int dob_lut4 = FELTGATE_LUT4_DOB, lowpass_lut4 = FELTGATE_LUT4_LOWPASS;
+constexpr int observer_lut4 = FELTGATE_LUT4_OBSERVER, lowpass_lut4 = FELTGATE_LUT4_LOWPASS;
 
 constexpr double step_nm = 0.2;
 constexpr double wall_damping_nm_s_rad = 0.005;
@@ -168,7 +150,7 @@ namespace {
 template <class Law>
 Size with_law(int low_passes) {
   return {shared_multiplications + Law::multiplications, observer_bits + Law::state_bits,
-          dob_lut4 + low_passes * lowpass_lut4, dob_lut4};
+          observer_lut4 + low_passes * lowpass_lut4, observer_lut4};
 }
 
 }  // namespace
@@ -176,15 +158,15 @@ Size with_law(int low_passes) {
 Size size_of(Kind kind) {
   switch (kind) {
     case Kind::observer:
-      return {shared_multiplications + 1, observer_bits, dob_lut4, dob_lut4};
+      return {shared_multiplications + 1, observer_bits, observer_lut4, observer_lut4};
     case Kind::feed_forward:
       return {1, 0, 0, 0};
     case Kind::pi:
-      return with_law<PiLaw<FedLever, Fixed>>(1);
+      return with_law<PiLaw<axis::Fixed>>(1);
     case Kind::pid:
-      return with_law<PidWithDerivative<FedLever, Fixed>>(2);
+      return with_law<PidWithDerivative<axis::Fixed>>(2);
     case Kind::reaction:
-      return with_law<ReactionLaw<FedLever, Fixed>>(1);
+      return with_law<ReactionLaw<axis::Fixed>>(1);
   }
   throw std::invalid_argument("no such controller");
 }
@@ -202,15 +184,12 @@ Tuning tuning_of(const Bench& bench, const plant::Parameters& plant) {
 }
 
 std::unique_ptr<RealChain> make_chain(Kind kind, bool fixed, const Tuning& t, int lines) {
-  if (lines == 1024) {
-    return fixed ? make<FedLever, Fixed>(kind, t) : make<FedLever, Real<double>>(kind, t);
+  if (std::find(encoder_lines.begin(), encoder_lines.end(), lines) == encoder_lines.end()) {
+    throw std::invalid_argument(
+        "controllers: chains exist for 500, 1024, 2500 and 10000 lines; choose one of them");
   }
-  if (fixed && lines == 500) return make<WithLines<500>, Fixed>(kind, t);
-  if (fixed && lines == 2500) return make<WithLines<2500>, Fixed>(kind, t);
-  if (fixed && lines == 10000) return make<WithLines<10000>, Fixed>(kind, t);
-  throw std::invalid_argument(
-      "controllers: chains exist for 1024 lines, and in fixed point for 500, 2500 and 10000; "
-      "choose one of them");
+  const DesignInfo design = fed_lever(lines);
+  return fixed ? make<axis::Fixed>(kind, design, t) : make<axis::Real<double>>(kind, design, t);
 }
 
 void run(const Bench& bench, const Trial& trial, double seconds,

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "design/design.hpp"
-#include "feltgate/chain_tick.hpp"
+#include "feltgate/axis/design.hpp"
 #include "sim/loop/figures.hpp"
 #include "sim/plant/parameters.hpp"
 #include "sim/reference/real_chain.hpp"
@@ -38,152 +38,116 @@ constexpr double derivative_filter = 4.0;
 /// does not switch it.
 constexpr double friction_from_rad_s = 1.0;
 
-/// Formats of the controllers' words; the torques are those of design D.
-template <class D, class N>
-struct LawNumbers {
-  static constexpr Format gain{1, 2, 15};     ///< a coefficient of the multiplier
-  static constexpr Format rate{0, -10, 27};   ///< small coefficient, as observer_a1
-  static constexpr Format state{1, 4, 30};    ///< Nm, with the fraction of the observer
-  static constexpr Format operand{1, 5, 29};  ///< difference of two states on the multiplier
-  static constexpr Format filter = Format{0, 0, 17};  ///< a1 of the derivative's filter
+/// Arithmetic of the controllers. Torques come and go in the design's format; states have the
+/// fraction of the observer.
+template <class N>
+struct Numbers {
+  using T = typename N::T;
+  static constexpr int gain_f = 15, rate_f = 27, filter_f = 17;  ///< coefficients of 18 bits
+  static constexpr int state_f = 30, operand_f = 29;             ///< Nm
+  static constexpr int state_bits = 35;
 
-  template <const Format& F>
-  using Word = typename N::template num<F.key()>;
-  using Torque = typename N::template num<D::f.torque.key()>;
-  using Velocity = typename N::template num<D::f.velocity.key()>;
-  using State = Word<state>;
-  using Filter = LowpassLaw<N, state.key(), operand.key(), D::rounding>;
+  explicit Numbers(const axis::Design& d)
+      : torque_f(d["TORQUE_F"]),
+        velocity_f(d["VELOCITY_F"]),
+        torque_w(d["TORQUE_W"]),
+        rounding(d.rounding()) {}
 
-  /// A value as a word, to nearest.
-  template <class X>
-  static X word(double value) {
-    if constexpr (N::is_fixed) {
-      return N::template from_raw<X::format.key()>(
-          std::llround(std::ldexp(value, X::format.fraction)));
-    } else {
-      return static_cast<X>(value);
-    }
+  T state_of(T torque) const {
+    return N::saturate(N::scale(torque, state_f - torque_f), axis::Bits(state_bits));
   }
-  template <class X>
-  static State state_of(X x) {
-    return quantise<N, State, D::rounding, Overflow::saturate>(x);
+  /// The state y + x, where x has more fraction bits.
+  T added(T y, T x, int fraction) const {
+    return N::add_rounded(y, x, axis::Drop(fraction - state_f, rounding));
   }
-  template <class X>
-  static Torque torque_of(X x) {
-    return quantise<N, Torque, D::rounding, Overflow::saturate>(x);
+  T torque_of(T x, int fraction) const {
+    return N::saturate(N::add_rounded(0, x, axis::Drop(fraction - torque_f, rounding)), torque_w);
   }
-  template <class X>
-  static X within(X x, X limit) {
-    return x > limit ? limit : x < negated(limit) ? negated(limit) : x;
-  }
-};
+  /// The difference of two states as the multiplier takes it.
+  static T operand(T x, T y) { return N::scale(x - y, operand_f - state_f); }
 
-/// The chain as it is: the observer is fed back by the word observer_gain, or not at all.
-template <class D, class N>
-struct AsIs {
-  static constexpr int state_bits = 0, multiplications = 0;
-  using L = LawNumbers<D, N>;
-  explicit AsIs(const Tuning&) {}
-  void reset() {}
-  typename L::Torque tick(typename L::Torque ref, typename L::Torque, typename L::Velocity) {
-    return ref;
-  }
+  int torque_f, velocity_f;
+  axis::Bits torque_w;
+  axis::Rounding rounding;
 };
 
 /// u = P*e + I*sum(e) + D*(e - lowpass(e)), e = tau_ref - tau_hat. Its zeros are the observer's
 /// cut-off and, with a derivative, the winding's R/L.
-template <class D, class N, bool Derivative>
+template <class N, bool Derivative>
 class PidLaw {
  public:
-  using L = LawNumbers<D, N>;
-  static constexpr int state_bits = (Derivative ? 2 : 1) * L::state.width();
+  using L = Numbers<N>;
+  using T = typename N::T;
+  static constexpr int state_bits = (Derivative ? 2 : 1) * L::state_bits;
   static constexpr int multiplications = Derivative ? 4 : 2;
 
-  explicit PidLaw(const Tuning& t) {
+  PidLaw(const axis::Design& d, const Tuning& t) : n_(d) {
     // Share * (s + g)(1 + s*a) / (s*(1 + s*b)) in parts; without a derivative a = b = 0.
     const double a = Derivative ? t.winding_s : 0.0, b = a / derivative_filter;
     const double g = t.cutoff_rad_s, p = t.share * (1 + g * (a - b));
-    proportional_ = L::template word<decltype(proportional_)>(p);
-    integral_gain_ = L::template word<decltype(integral_gain_)>(t.share * g * t.tick_s);
-    limit_ = L::template word<decltype(limit_)>(t.limit_nm);
+    proportional_ = N::of(p, L::gain_f);
+    integral_gain_ = N::of(t.share * g * t.tick_s, L::rate_f);
+    limit_ = N::of(t.limit_nm, L::state_f);
     if constexpr (Derivative) {
-      derivative_ = L::template word<decltype(derivative_)>((t.share * a - p * b) / b);
-      filter_ = L::template word<decltype(filter_)>(-std::expm1(-t.tick_s / b));
+      derivative_ = N::of((t.share * a - p * b) / b, L::gain_f);
+      filter_ = N::of(-std::expm1(-t.tick_s / b), L::filter_f);
     }
   }
-  void reset() { integral_ = slow_ = {}; }
-  typename L::Torque tick(typename L::Torque ref, typename L::Torque hat, typename L::Velocity) {
-    const auto error = ref - hat;
-    integral_ = L::within(L::state_of(integral_ + error * integral_gain_), limit_);
-    if constexpr (!Derivative) return L::torque_of(integral_ + error * proportional_);
-    const auto now = L::state_of(error);
-    slow_ = L::Filter::template step<L::filter.key()>(now, slow_, filter_);
-    const auto fast = L::Filter::operand(now, slow_);
-    return L::torque_of(integral_ + error * proportional_ + fast * derivative_);
+  void reset() { integral_ = slow_ = 0; }
+  T tick(T ref, T hat, T) {
+    const T error = ref - hat;
+    const T sum = n_.added(integral_, error * integral_gain_, n_.torque_f + L::rate_f);
+    integral_ = N::limited(N::saturate(sum, axis::Bits(L::state_bits)), limit_);
+    const int product_f = n_.torque_f + L::gain_f;
+    const T proportional = N::scale(integral_, product_f - L::state_f) + error * proportional_;
+    if constexpr (!Derivative) return n_.torque_of(proportional, product_f);
+    const T now = n_.state_of(error);
+    slow_ = n_.added(slow_, L::operand(now, slow_) * filter_, L::operand_f + L::filter_f);
+    constexpr int fast_f = L::operand_f + L::gain_f;
+    const T fast = L::operand(now, slow_) * derivative_;
+    return n_.torque_of(N::scale(proportional, fast_f - product_f) + fast, fast_f);
   }
 
  private:
-  typename L::State integral_{}, slow_{}, limit_{};
-  typename L::template Word<L::gain> proportional_{}, derivative_{};
-  typename L::template Word<L::rate> integral_gain_{};
-  typename L::template Word<L::filter> filter_{};
+  L n_;
+  T integral_ = 0, slow_ = 0, limit_ = 0;
+  T proportional_ = 0, derivative_ = 0, integral_gain_ = 0, filter_ = 0;
 };
 
-template <class D, class N>
-using PiLaw = PidLaw<D, N, false>;
-template <class D, class N>
-using PidWithDerivative = PidLaw<D, N, true>;
+template <class N>
+using PiLaw = PidLaw<N, false>;
+template <class N>
+using PidWithDerivative = PidLaw<N, true>;
 
 /// u = tau_ref + lowpass(tau_ref) - (tau_hat - friction): the observer without the friction that it
 /// sees is the reaction of the hand, which then follows tau_ref. The low-pass is the observer's.
-template <class D, class N>
+template <class N>
 class ReactionLaw {
  public:
-  using L = LawNumbers<D, N>;
-  static constexpr int state_bits = L::state.width();
+  using L = Numbers<N>;
+  using T = typename N::T;
+  static constexpr int state_bits = L::state_bits;
   static constexpr int multiplications = 2;
 
-  explicit ReactionLaw(const Tuning& t)
-      : filter_(L::template word<decltype(filter_)>(-std::expm1(-t.cutoff_rad_s * t.tick_s))),
-        slope_(L::template word<decltype(slope_)>(t.friction_nm / friction_from_rad_s)),
-        friction_(L::template word<decltype(friction_)>(t.friction_nm)) {}
-  void reset() { slow_ = {}; }
-  typename L::Torque tick(typename L::Torque ref, typename L::Torque hat, typename L::Velocity w) {
-    slow_ = L::Filter::template step<L::rate.key()>(L::state_of(ref), slow_, filter_);
-    const auto friction = L::within(L::torque_of(w * slope_), friction_);
-    return L::torque_of(ref + slow_ - hat + friction);
+  ReactionLaw(const axis::Design& d, const Tuning& t)
+      : n_(d),
+        filter_(N::of(-std::expm1(-t.cutoff_rad_s * t.tick_s), L::rate_f)),
+        slope_(N::of(t.friction_nm / friction_from_rad_s, L::gain_f)),
+        friction_(N::of(t.friction_nm, n_.torque_f)) {}
+  void reset() { slow_ = 0; }
+  T tick(T ref, T hat, T w) {
+    const T now = n_.state_of(ref);
+    slow_ = n_.added(slow_, L::operand(now, slow_) * filter_, L::operand_f + L::rate_f);
+    const T friction = N::limited(n_.torque_of(w * slope_, n_.velocity_f + L::gain_f), friction_);
+    const axis::Exponent to_state = L::state_f - n_.torque_f;
+    return n_.torque_of(
+        N::scale(ref, to_state) + slow_ - N::scale(hat, to_state) + N::scale(friction, to_state),
+        L::state_f);
   }
 
  private:
-  typename L::State slow_{};
-  typename L::template Word<L::rate> filter_{};
-  typename L::template Word<L::gain> slope_{};
-  typename L::Torque friction_{};
-};
-
-/// The twin's chain with a controller between the scene and the voltage law; a drop-in for
-/// ControlChain.
-template <class D, class N, template <class, class> class Law>
-class ControlledChain : public ChainTick<D, N> {
- public:
-  void tune(const Tuning& t) { law_ = Law<D, N>(t); }
-  void reset() {
-    ChainTick<D, N>::reset();
-    this->words().reset();
-    law_.reset();
-  }
-  void tick(const ChainIn& in) {
-    if (in.restart) this->restart();
-    this->estimate(in.travel);
-    this->observe(in.armed);
-    this->render(in.armed, in.scene, in.position, in.relief);
-    if (!in.armed) law_.reset();
-    this->drive(in.armed, static_cast<Mode>(in.mode),
-                law_.tick(this->tau_ref(), this->tau_hat(), this->velocity()));
-  }
-
- private:
-  Law<D, N> law_{Tuning{1, 1, 1, 1, 0, 0, 1}};  // until tune()
+  L n_;
+  T slow_ = 0, filter_, slope_, friction_;
 };
 
 enum class Kind { observer, feed_forward, pi, pid, reaction };

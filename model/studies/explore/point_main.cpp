@@ -17,17 +17,16 @@
 
 #include "Vpoint.h"
 #include POINT_HEADER
+#include "design/design.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/causes.hpp"
 #include "feltgate/largest.hpp"
-#include "feltgate/scenes.hpp"
 #include "feltgate/while_armed.hpp"
 #include "sim/backends/lock_step_core.hpp"
 #include "sim/plant/brushed_motor.hpp"
 #include "sim/plant/parameters.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "sim/reference/chain.hpp"
-#include "sim/reference/control_chain.hpp"
 #include "studies/explore/measurement.hpp"
 
 // Runs RTL and twin of a design point in lock-step and compares every output on every clock, and
@@ -56,29 +55,29 @@ class LockStepRun {
     const auto window = static_cast<std::int64_t>(lock_step_s * static_cast<double>(D::clock_hz));
     for (const Motion& motion : motions()) {
       const int scene = D::scene_number(motion.scene);
-      if (!scene_built<D>(scene)) continue;
+      if (!design_of<D>().has_scene(scene)) continue;
       write(D::A::setpoint_torque,
             std::llround(std::ldexp(motion.setpoint_nm, D::f.torque.fraction)));
-      control(scene, Mode::closed_loop, true);
+      control(scene, closed_loop, true);
       play(motion, window);
     }
     // A design without feedback of tau_hat would not exercise that path.
     const Motion& last = motions().back();
-    control(0, Mode::closed_loop, false);  // what follows is not let through while armed
+    control(0, closed_loop, false);  // what follows is not let through while armed
     write(D::A::observer_gain, fixed_of<D::P::observer_gain.key()>::max_raw() / 3);
-    control(D::scene_number("spring_tension"), Mode::closed_loop, true);
+    control(D::scene_number("spring_tension"), closed_loop, true);
     play(last, window / 2);
-    control(0, Mode::open_loop, false);
-    control(0, Mode::open_loop, true);
+    control(0, Map::mode_open, false);
+    control(0, Map::mode_open, true);
     play(last, window / 8);
     write(D::A::voltage_setpoint, std::int64_t{3} << D::f.voltage.fraction);
-    control(0, Mode::voltage, false);
-    control(0, Mode::voltage, true);
+    control(0, Map::mode_voltage, false);
+    control(0, Map::mode_voltage, true);
     play(last, window / 8);
     overheat(last, window / 8);
-    control(0, Mode::closed_loop, false);
+    control(0, closed_loop, false);
     play(last, window / 8);
-    control(0, Mode::closed_loop, true);
+    control(0, closed_loop, true);
     write(D::A::overspeed, 0);
     play(last, window / 8);
     core_.follow();
@@ -87,6 +86,8 @@ class LockStepRun {
   }
 
  private:
+  static constexpr int closed_loop = 0;  ///< mode
+
   /// Performs one write early in a tick, and runs the rest of that tick.
   void write(int address, std::int64_t raw) {
     while (core_.twin().clock_of_tick() != 5) clock();
@@ -102,10 +103,10 @@ class LockStepRun {
   /// Repeats the write that the core has carried out in the chain.
   void carry_out() {
     if (host_.write(pending_.address, pending_.word, core_.twin().out().armed)) {
-      chain_.words().set_raw(pending_.address, pending_.word);
+      chain_.set_word(pending_.address, pending_.word);
     }
   }
-  void control(int scene, Mode mode, bool arm) {
+  void control(int scene, int mode, bool arm) {
     write(D::C::control, static_cast<std::int64_t>(D::control_reset) |
                              std::int64_t{1} << D::C::control_host |
                              std::int64_t{arm} << D::C::control_arm |
@@ -125,7 +126,7 @@ class LockStepRun {
                        fault_names.at(core_.twin().out().first_fault)));
     }
     write(D::A::i2t_budget, 0xffffffff);
-    control(0, Mode::closed_loop, false);
+    control(0, closed_loop, false);
     write(D::C::command, std::int64_t{1} << D::C::command_clear_faults);
   }
 
@@ -167,11 +168,10 @@ class LockStepRun {
     const bool restart = host_.restart(twin.armed, twin.scene);
     chain_.tick({twin.position, core_.twin().sampled_travel(), twin.armed, twin.scene, host_.mode(),
                  restart});
-    const bool same =
-        chain_.velocity().raw() == twin.velocity && chain_.tau_hat().raw() == twin.tau_hat &&
-        chain_.tau_ref().raw() == twin.tau_ref &&
-        chain_.control().current.raw() == twin.current_ref &&
-        chain_.control().voltage.raw() == twin.voltage && chain_.control().duty.raw() == twin.duty;
+    const ChainRaw& chain = *chain_.raw();
+    const bool same = chain.velocity == twin.velocity && chain.tau_hat == twin.tau_hat &&
+                      chain.tau_ref == twin.tau_ref && chain.current_ref == twin.current_ref &&
+                      chain.voltage == twin.voltage && chain.duty == twin.duty;
     if (!same) note(fmt::format("tick {}: the chain differs from the core", twin.tick_count));
   }
   void note(const std::string& what) {
@@ -185,8 +185,8 @@ class LockStepRun {
 
   const std::vector<Value>& values_;
   Measurement* m_;
-  LockStepCore<Rtl, D> core_;
-  ControlChain<D, Fixed> chain_;
+  LockStepCore<Rtl> core_{design_of<D>()};
+  Chain<axis::Fixed> chain_{"fixed", design_info<D>()};
   CoreIn in_;
   Write pending_;
   HostBeside host_{static_cast<std::uint32_t>(D::control_reset)};
@@ -198,13 +198,17 @@ class LockStepRun {
 
 namespace feltgate::explore {
 
-/// Design D with the exact factor of the N-method in place of its power of two or quantised gain.
+/// The exact factor of the N-method, rad/s a count.
 template <class D>
-struct ExactGain : D {
-  static constexpr int velocity_gain = 1;  // any but 0: the factor below is taken
-  static constexpr double velocity_gain_rad_s =
-      D::count_rad * static_cast<double>(D::tick_hz) / D::m1;
-};
+constexpr double exact_gain_rad_s = D::count_rad* static_cast<double>(D::tick_hz) / D::m1;
+
+/// Design D with it in place of its power of two or quantised gain.
+template <class D>
+DesignInfo with_exact_gain() {
+  DesignInfo design = design_info<D>();
+  design.velocity_gain_rad_s = exact_gain_rad_s<D>;
+  return design;
+}
 
 /// Runs both chains of one design on the same counts.
 template <class D>
@@ -216,7 +220,7 @@ class ErrorRun {
   void run(Measurement* m) {
     for (const Motion& motion : motions()) {
       const int scene = D::scene_number(motion.scene);
-      if (scene_built<D>(scene)) run(motion, scene, m);
+      if (design_of<D>().has_scene(scene)) run(motion, scene, m);
     }
   }
 
@@ -236,7 +240,7 @@ class ErrorRun {
       in.scene = scene;
       fixed_.tick(in);
       exact_.tick(in);
-      const unsigned limits = fixed_.limits();
+      const unsigned limits = fixed_.raw()->limits;
       for (std::size_t bit = 0; bit < m->limited.size(); ++bit) {
         m->limited[bit] += (limits >> bit) & 1u;
       }
@@ -246,14 +250,15 @@ class ErrorRun {
         return;
       }
       ++m->ticks;
-      const auto off = [](auto fixed, Quad exact) {
-        return static_cast<double>(static_cast<Quad>(fixed.to_double()) - exact);
+      const auto off = [](double fixed, Quad exact) {
+        return static_cast<double>(static_cast<Quad>(fixed) - exact);
       };
-      m->velocity.add(off(fixed_.velocity(), exact_.velocity()), motion.name);
-      m->tau_hat.add(off(fixed_.tau_hat(), exact_.tau_hat()), motion.name);
-      m->tau_ref.add(off(fixed_.tau_ref(), exact_.tau_ref()), motion.name);
-      m->torque.add(ktn * off(fixed_.control().current, exact_.control().current), motion.name);
-      m->voltage.add(off(fixed_.control().voltage, exact_.control().voltage), motion.name);
+      const ChainOut& fixed = fixed_.out();
+      m->velocity.add(off(fixed.velocity_rad_s, exact_.velocity()), motion.name);
+      m->tau_hat.add(off(fixed.tau_hat_nm, exact_.tau_hat()), motion.name);
+      m->tau_ref.add(off(fixed.tau_ref_nm, exact_.tau_ref()), motion.name);
+      m->torque.add(ktn * off(fixed.current_a, exact_.current()), motion.name);
+      m->voltage.add(off(fixed.voltage_v, exact_.voltage()), motion.name);
     }
   }
 
@@ -261,7 +266,7 @@ class ErrorRun {
   static void note_speed(const Motion& motion, std::int64_t ticks, Measurement* m) {
     for (std::int64_t k = 0; k < ticks; ++k) {
       const auto before = counts(motion, k < D::m1 ? 0 : k - D::m1);
-      const double size = std::abs(counts(motion, k) - before) * ExactGain<D>::velocity_gain_rad_s;
+      const double size = std::abs(counts(motion, k) - before) * exact_gain_rad_s<D>;
       m->raw_velocity_rad_s = larger(m->raw_velocity_rad_s, size);
     }
   }
@@ -272,14 +277,13 @@ class ErrorRun {
     fixed_.reset();
     exact_.reset();
     for (const Value& v : values_) {
-      fixed_.words().set_raw(v.address, v.raw);
-      exact_.words().set_value(v.address, static_cast<Quad>(v.si));
+      fixed_.set_word(v.address, static_cast<std::uint32_t>(v.raw));
+      exact_.set_parameter(v.address, v.si);
     }
-    fixed_.words().set_raw(D::A::ramp_step, fixed_of<D::f.ramp.key()>::max_raw());
-    exact_.words().set_value(D::A::ramp_step, Quad{1e6});
-    fixed_.words().set_raw(D::A::setpoint_torque,
-                           std::llround(std::ldexp(motion.setpoint_nm, D::f.torque.fraction)));
-    exact_.words().set_value(D::A::setpoint_torque, static_cast<Quad>(motion.setpoint_nm));
+    fixed_.set_word(D::A::ramp_step, fixed_of<D::f.ramp.key()>::max_raw());
+    exact_.set_parameter(D::A::ramp_step, 1e6);
+    fixed_.set_parameter(D::A::setpoint_torque, motion.setpoint_nm);
+    exact_.set_parameter(D::A::setpoint_torque, motion.setpoint_nm);
   }
 
   /// What an ideal encoder counts at the start of tick k.
@@ -289,8 +293,8 @@ class ErrorRun {
   }
 
   const std::vector<Value>& values_;
-  ControlChain<D, Fixed> fixed_;
-  ControlChain<ExactGain<D>, Real<Quad>> exact_;
+  Chain<axis::Fixed> fixed_{"fixed", design_info<D>()};
+  Chain<axis::Real<Quad>> exact_{"quad", with_exact_gain<D>()};
 };
 
 constexpr double settling_step_nm = 0.2;
@@ -301,21 +305,19 @@ constexpr double settling_step_nm = 0.2;
 template <class D>
 double torque_settling_s(const std::vector<Value>& values, const plant::MotorParameters& motor) {
   const int scene = D::scene_number("setpoint");
-  if (!scene_built<D>(scene)) return -1;
-  ControlChain<D, Fixed> chain;
-  chain.reset();
-  for (const Value& v : values) chain.words().set_raw(v.address, v.raw);
-  chain.words().set_raw(D::A::ramp_step, fixed_of<D::f.ramp.key()>::max_raw());
-  chain.words().set_raw(D::A::setpoint_torque, 0);
+  if (!design_of<D>().has_scene(scene)) return -1;
+  Chain<axis::Fixed> chain("fixed", design_info<D>());
+  for (const Value& v : values) chain.set_word(v.address, static_cast<std::uint32_t>(v.raw));
+  chain.set_word(D::A::ramp_step, fixed_of<D::f.ramp.key()>::max_raw());
+  chain.set_word(D::A::setpoint_torque, 0);
   ChainIn in;
   in.armed = true;
   in.scene = scene;
   for (int k = 0; k < 100; ++k) chain.tick(in);
-  chain.words().set_raw(D::A::setpoint_torque,
-                        std::llround(std::ldexp(settling_step_nm, D::f.torque.fraction)));
+  chain.set_parameter(D::A::setpoint_torque, settling_step_nm);
 
   // Time in clocks from the start of the tick in which the write is in force.
-  constexpr std::int64_t duty_clock = 2 + 46;
+  constexpr std::int64_t duty_clock = axis::TickCounter::sample_clock + design::latency_clocks;
   constexpr std::int64_t end = D::clock_hz / 20;  // 50 ms
   plant::Winding winding(motor.resistance_ohm, motor.inductance_h);
   winding.set_step(static_cast<double>(D::pwm_period) / static_cast<double>(D::clock_hz));
@@ -327,7 +329,7 @@ double torque_settling_s(const std::vector<Value>& values, const plant::MotorPar
     const std::int64_t now = period * D::pwm_period;
     while (next_tick + duty_clock <= now) {
       chain.tick(in);
-      held_v = static_cast<double>(chain.control().duty.raw()) / D::pwm_period * D::supply_v;
+      held_v = chain.out().duty_clocks / D::pwm_period * D::supply_v;
       next_tick += D::clocks_per_tick;
     }
     const auto step = winding.advance(current_a, held_v, held_v);
@@ -353,7 +355,7 @@ feltgate::explore::Measurement measure(const std::string& values_path, const std
   using namespace feltgate::explore;
   const auto values = read_values(values_path);
   Measurement m;
-  m.latency_clocks = feltgate::Map::T::duty + 1 - feltgate::Map::T::sample;
+  m.latency_clocks = feltgate::design::latency_clocks;
   m.clock_hz = static_cast<double>(D::clock_hz);
   const double tick_s = 1.0 / static_cast<double>(D::tick_hz);
   const double cutoff_rad_s = -std::log1p(-value(values, "velocity_a1").si) / tick_s;

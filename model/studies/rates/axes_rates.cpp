@@ -20,20 +20,11 @@ namespace feltgate::rates {
 
 namespace {
 
-DesignInfo design_of(const AxesScene& scene) {
-  const std::string name = own_design(scene);
-  if (const AxesDesignMakers* made = find_axes_design(name)) return made->info();
-  throw std::invalid_argument(
-      fmt::format("{}: design {} is not in this program; start it as `./feltgate rates`, which "
-                  "builds one that has it",
-                  scene.scenario.path, name));
-}
-
 class AxesSweep : public Sweep {
  public:
   AxesSweep(const AxesScene& scene, const LawSource& source, const design::Elaborated& e,
             const Options& options)
-      : Sweep(source, design_of(scene), e, options), scene_(scene) {}
+      : Sweep(source, design_named(own_design(scene)), e, options), scene_(scene) {}
 
   Report run() {
     law::Compiled fast = fastest(source_, target_);

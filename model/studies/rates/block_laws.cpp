@@ -34,8 +34,7 @@ std::vector<BlockLaw> make() {
                  "mailbox setpoint_torque = 0 Nm in -0.5 .. 0.5 Nm max_age 4 s\n"
                  "out torque = setpoint_torque\n",
                  {"setpoint_torque"},
-                 [](const Values& v, double) { return v; },
-                 "0 LUT4 eq, it is in every core"});
+                 [](const Values& v, double) { return v; }});
   all.push_back({"membrane",
                  "membrane",
                  "",
@@ -44,8 +43,7 @@ std::vector<BlockLaw> make() {
                    return Values{{"lower", v.at("membrane_lower") * q},
                                  {"upper", v.at("membrane_upper") * q},
                                  {"strength", v.at("membrane_torque")}};
-                 },
-                 "36 LUT4 eq"});
+                 }});
   all.push_back(
       {"spring_compression",
        "",
@@ -56,8 +54,7 @@ std::vector<BlockLaw> make() {
        [](const Values& v, double q) {
          return Values{{"contact", v.at("compression_contact") * q},
                        {"stiffness", v.at("compression_stiffness") / q}};
-       },
-       "1 LUT4 eq, the block alone"});
+       }});
   all.push_back({"spring_tension",
                  "spring",
                  "",
@@ -65,28 +62,20 @@ std::vector<BlockLaw> make() {
                  [](const Values& v, double q) {
                    return Values{{"rest", v.at("tension_rest") * q},
                                  {"stiffness", v.at("tension_stiffness") / q}};
-                 },
-                 "1 LUT4 eq, the block alone"});
-  all.push_back({"damper",
-                 "damper",
-                 "",
-                 {"damper_damping"},
-                 [](const Values& v, double) {
+                 }});
+  all.push_back({"damper", "damper", "", {"damper_damping"}, [](const Values& v, double) {
                    return Values{{"damping", v.at("damper_damping")}};
-                 },
-                 "101 LUT4 eq, wall too"});
+                 }});
   all.push_back({"charge_attract",
                  "charge_far",
                  "",
                  {"attract_centre", "attract_strength", "attract_core", "attract_core_slope"},
-                 [](const Values& v, double q) { return charge(v, "attract", 1, q); },
-                 "202 LUT4 eq, both charges"});
+                 [](const Values& v, double q) { return charge(v, "attract", 1, q); }});
   all.push_back({"charge_repel",
                  "charge_far",
                  "",
                  {"repel_centre", "repel_strength", "repel_core", "repel_core_slope"},
-                 [](const Values& v, double q) { return charge(v, "repel", -1, q); },
-                 "202 LUT4 eq, both charges"});
+                 [](const Values& v, double q) { return charge(v, "repel", -1, q); }});
   all.push_back({"wall",
                  "wall",
                  "",
@@ -95,8 +84,7 @@ std::vector<BlockLaw> make() {
                    return Values{{"contact", v.at("wall_contact") * q},
                                  {"stiffness", v.at("wall_stiffness") / q},
                                  {"damping", v.at("wall_damping")}};
-                 },
-                 "101 LUT4 eq, damper too"});
+                 }});
   return all;
 }
 

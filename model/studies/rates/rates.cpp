@@ -55,7 +55,6 @@ class LeverSweep : public Sweep {
     report_.law = block_ != nullptr && block_->file.empty() ? block_->scene : fast.law.name;
     report_.plant = plant_.name;
     report_.simulated_s = scene_.duration_s;
-    if (block_ != nullptr) report_.block_gates = block_->gates;
     sweep(std::move(fast), block_ != nullptr ? 1 : 0);
     if (block_ != nullptr) run_block();
     if (whole_torque()) {

@@ -35,7 +35,6 @@ struct BlockLaw {
   /// angle of a count.
   using Values = std::map<std::string, double>;
   std::function<Values(const Values&, double count_rad)> parameters;
-  std::string gates;  ///< size of the block, docs/synthesis.md
 };
 
 /// The law of a scene; nullptr if the scene has no torque law of its own.
@@ -141,7 +140,6 @@ struct Beside {
 struct Report {
   std::string scene, title, law, plant;  ///< plant: or device
   int axes = 1;
-  std::string block_gates;  ///< size of the scene's block; empty: no block renders the scene
   double simulated_s = 0;
   double largest_nm = 0;  ///< of the continuous law
   Slope slope;

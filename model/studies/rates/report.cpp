@@ -170,7 +170,6 @@ const Columns<Report> scene_columns{
     {"lever_damping_nm_s_rad", &Report::damping_nm_s_rad},
     {"counts_alone_rms_nm", [](auto& r) { return measured(r.floor, r.floor.rms()); }},
     {"counts_alone_max_nm", [](auto& r) { return measured(r.floor, r.floor.max()); }},
-    {"block_gates", &Report::block_gates},
     {"notes", &Report::notes},
     {"rates", [](auto& r) { return array_of(columns_of(r), r.rows); }},
     {"beside", [](auto& r) { return when(!r.beside.empty(), array_of(beside_columns, r.beside)); }},
@@ -203,10 +202,8 @@ std::string report_text(const Report& r) {
     for (const std::string& line : row.broken) s += fmt::format("not kept at {}: {}\n", rate, line);
   }
   return s + notes_text(r) +
-         fmt::format(
-             "gates, at every rate: {}engine 1265 LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
-             r.block_gates.empty() ? "" : "block " + r.block_gates + "; ",
-             several ? " with its glue to one axis" : "");
+         fmt::format("gates, at every rate: engine {} LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
+                     FELTGATE_LUT4_ENGINE, several ? " with its glue to one axis" : "");
 }
 
 std::string gains_text(const Report& r) {

@@ -8,8 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "design/info.hpp"
 #include "sim/backends/backend.hpp"
 #include "sim/plant/drive.hpp"
+#include "sim/reference/chain.hpp"
 
 namespace feltgate::stability {
 
@@ -28,8 +30,8 @@ double largest(const design::Word& w) {
 BitLoop::BitLoop(const design::Elaborated& design, const BitLoopSetting& s)
     : design_(design),
       wall_(s.wall),
-      chain_(s.made_chain ? s.made_chain() : make_real_chain(design.design.name, s.chain)),
-      plant_(s.plant, s.plant.effects, plant::drive_of(design_named(design.design.name)), s.hand),
+      chain_(s.made_chain ? s.made_chain() : make_chain(design::info_of(design), s.chain)),
+      plant_(s.plant, s.plant.effects, plant::drive_of(design::info_of(design)), s.hand),
       count_rad_(design.design.count_rad()),
       pwm_ticks_(pwm_ticks(design.design)),
       pwm_clocks_(design.design.pwm_period_clocks()),
@@ -39,12 +41,6 @@ BitLoop::BitLoop(const design::Elaborated& design, const BitLoopSetting& s)
   in_.armed = true;
   in_.scene = design.registers.scene_number(own ? "wall" : "setpoint");
   const auto set = [&](const char* name, double v) { chain_->set_parameter(address(name), v); };
-  // A design file may differ from the built-in design in what registers hold.
-  const DesignInfo& built = design_named(design.design.name);
-  for (const design::Word& w : design.words) {
-    const ParameterInfo* p = built.find(w.parameter.name);
-    if (p != nullptr && p->raw != w.raw) set(w.parameter.name.c_str(), w.quantised());
-  }
   if (own) {
     set("wall_contact", 0);
     set("wall_stiffness", s.wall.stiffness_nm_rad * count_rad_);

@@ -161,7 +161,7 @@ void Maker::encoder() {
   }
   const int bits = std::ilogb(counts);
   const bool fits = d_.absolute_framing != AbsoluteEncoder::kSpi && counts == 1 << bits &&
-                    bits >= 12 && bits <= 24;
+                    bits >= 12 && bits <= 22;
   if (fits) {
     m_.absolute_bits = bits;
     m_.lines = p_.encoder.lines;

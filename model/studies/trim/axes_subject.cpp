@@ -35,7 +35,7 @@ struct Column {
 Felt feel(const AxesScene& scene, const Options& options, const Model& model, const LawMaker& law) {
   AxesScene s = scene;
   s.scenario.effects = model.effects;
-  const DesignInfo design = find_axes_design(options.design)->info();
+  const DesignInfo design = design_named(options.design);
   const Clock window = std::llround(options.window_s * static_cast<double>(design.clock_hz));
   Felt felt;
   std::vector<Column> columns;

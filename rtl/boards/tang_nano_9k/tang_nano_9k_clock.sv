@@ -13,7 +13,7 @@ module tang_nano_9k_clock (
   output logic locked_o
 );
 
-  localparam int C = feltgate_pkg::CLOCK_HZ;
+  localparam int C = cfg::CLOCK_HZ;
   // Frequencies are in units of 3 kHz, so that the products below fit 32 bits.
   localparam int STEP_HZ = 3000;
   localparam int K = C / STEP_HZ;

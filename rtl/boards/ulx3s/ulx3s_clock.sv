@@ -14,7 +14,7 @@ module ulx3s_clock (
 );
 
   localparam int INPUT_HZ = 25000000;
-  localparam int C = feltgate_pkg::CLOCK_HZ;
+  localparam int C = cfg::CLOCK_HZ;
   // Frequencies are in units of 25 kHz, so that the products below fit 32 bits.
   localparam int STEP_HZ = 25000;
   localparam int K = C / STEP_HZ;

@@ -164,14 +164,18 @@ class CommandLine(Bench):
         done = self.run_it("--design", ours, "--json", "a.json")
         self.assertEqual(done.returncode, 0, done.err)
         self.assertEqual(json.loads(self.path("a.json").read_text())["design"], "lever")
+        # Another design runs in the twin at once; its RTL is in no program.
+        self.given.add("mine.toml")
+        self.path("mine.toml").write_text(ours.read_text().replace("torque_limit_nm = 0.5", "torque_limit_nm = 0.4"))
+        done = self.run_it("--design", "mine.toml", "--json", "a.json")
+        self.assertEqual(done.returncode, 0, done.err)
+        self.assertEqual(json.loads(self.path("a.json").read_text())["design"], "mine")
         self.path("a.json").unlink()
-        text = ours.read_text().replace("# ", "#  ", 1)
-        for name in ("mine", "lever"):
-            self.given.add(f"{name}.toml")
-            self.path(f"{name}.toml").write_text(text)
-            for command in ("run", "trim"):
-                said = (f"{name}.toml: a design runs once it is built in; ", f"--design {name}")
-                self.refused(command, "short.toml", "--design", f"{name}.toml", said=said)
+        self.refused("run", "short.toml", "--design", "mine.toml", said=("its RTL is not in this program",))
+        # A design of a built name that says something else is not that.
+        self.given.add("lever.toml")
+        self.path("lever.toml").write_text(self.path("mine.toml").read_text())
+        self.refused("run", "short.toml", "--design", "lever.toml", said=("another design of this name",))
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ import time
 import unittest
 
 from bench import Bench
-from testing import SCRIPTS, ran
+from testing import ROOT, SCRIPTS, ran
 
 import crew
 import interrupts
@@ -48,7 +48,8 @@ class Scripts(Bench):
 
     def test_demo(self):
         self.path("traces").mkdir()
-        self.put("root/rtl/designs/presets.txt", "")
+        self.path("root").mkdir()
+        self.path("root/rtl").symlink_to(ROOT / "rtl")
         for name in ("one", "two"):
             self.put(f"root/vectors/scenes/{name}.toml", self.path("short.toml").read_text(encoding="utf-8"))
         words = ("--no-figures", "--traces", "traces", "--out", "out", "--jobs", "2")
@@ -56,7 +57,7 @@ class Scripts(Bench):
         self.assertFalse(self.path("out").exists(), "an empty folder stayed")
 
     def test_prove(self):
-        self.ends("prove", "mult", "--jobs", "2")
+        self.ends("prove", "pwm", "--jobs", "2")
 
     def test_what_fails_ends_the_others(self):
         both, done, began = crew.Crew(), [], time.monotonic()

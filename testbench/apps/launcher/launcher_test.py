@@ -144,17 +144,19 @@ class Machine(Scratch):
             (("run", "wall", "--design", "my/own.toml"), ""),
             (("run", "--csv", "out", law), "lever_law"),
             (("import", "a.sr"), "twin"),
-            (("stability", "balanced"), "balanced"),
+            (("run", "wall", "--design", "my/own.toml", "--engine", "twin"), "twin"),
+            (("run", law, "--engine", "twin"), ""),
+            (("stability", "balanced"), ""),
             (("design", "fast"), ""),
-            (("board", "--design", "lever_law", "--hand", "swing"), "board_lever_law"),
+            (("board", "--design", "lever_law", "--hand", "swing"), "board"),
             (("board", "--rtl"), "board_rtl_lever"),
             (("board", "--rtl", "--replay", recording), "board_rtl_fast"),
             (("host", "PORT", "info", "--design", "lever_law"), "host"),
             (("touch", "a.glb", "--engine", "all"), "touch_rtl"),
-            (("rates", device), "lever_law"),
+            (("rates", device), ""),
             (("rates", device, "--lock-step"), "stylus_law"),
             (("trim", "membrane"), ""),
-            (("trim", "detent"), "lever_law"),
+            (("trim", "detent"), ""),
         ):
             with self.subTest(words):
                 self.ended(self.start(*words, FELTGATE_SKIP_PACKAGES="1"))

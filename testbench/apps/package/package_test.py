@@ -62,9 +62,9 @@ def main_command(folder):
 
 
 CORE_PROGRAM = """#include "feltgate/device.hpp"
-#include "feltgate/generated/paper.hpp"
+#include "feltgate/generated/lever.hpp"
 int main() {
-  feltgate::TwinDevice<feltgate::Paper> device;
+  feltgate::TwinDevice device(feltgate::design_info<feltgate::Lever>());
   device.arm();
   for (int tick = 0; tick < 10; ++tick) device.tick({});
   return device.armed() ? 0 : 1;

@@ -25,7 +25,7 @@ inline const double count_rad = design_named("lever").count_rad;
 inline law::Compiled shipped(const std::string& law, const std::string& design = "lever",
                              double rate_hz = 0) {
   return law::compile(law::read_law(root + "/rtl/laws/" + law + ".law", rate_hz),
-                      law::target_of(law_design(design)));
+                      law::target_of(design_named(design)));
 }
 inline std::string image_of(const std::string& law, const std::string& design = "lever") {
   return law::text(shipped(law, design).image);

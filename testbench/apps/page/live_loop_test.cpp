@@ -200,7 +200,7 @@ TEST_CASE("recorded inputs survive as text, and every bit of them counts in the 
 }
 
 TEST_CASE("page: a law is felt as it says, and its parameters are turned while it runs") {
-  UserLaw law(law_text("detent"), law_design("lever_law"));
+  UserLaw law(law_text("detent"), design_named("lever_law"));
   LiveLoop loop("lever_law", plant_named("p24"));
   loop.run_law(law.scene());
   loop.select("law");
@@ -222,7 +222,7 @@ TEST_CASE("page: a law is felt as it says, and its parameters are turned while i
 }
 
 TEST_CASE("page: torque over a turn, parameters and table of a law") {
-  UserLaw law(law_text("detent"), law_design("lever_law"));
+  UserLaw law(law_text("detent"), design_named("lever_law"));
   const auto parameters = law.parameters();
   REQUIRE(parameters.size() == 2);
   CHECK(parameters[0].name == "amplitude");
@@ -249,7 +249,7 @@ TEST_CASE("page: torque over a turn, parameters and table of a law") {
 
 TEST_CASE("page: a law that remembers has a torque for each way over the turn") {
   // A stalk that latches beyond 0.3 rad and springs back within 0.2 rad.
-  const UserLaw law(law_text("turn_switch"), law_design("lever_law"));
+  const UserLaw law(law_text("turn_switch"), design_named("lever_law"));
   const int points = 1441;
   const auto curve = law.curve(points);
   const auto at = [&](double rad, bool up) {
@@ -268,7 +268,7 @@ TEST_CASE("page: a law that remembers has a torque for each way over the turn") 
 TEST_CASE("page: a law of two axes is refused, and an empty one") {
   const auto refused = [](const std::string& text) {
     try {
-      UserLaw law(text, law_design("lever_law"));
+      UserLaw law(text, design_named("lever_law"));
     } catch (const law::LawError& error) {
       return error.diagnostics();
     }

@@ -125,7 +125,8 @@ class Oracle:
             volt = limited(floor(tau_ref * p["dead_voltage_slope"], 14), p["dead_voltage"])
         self.current = floor(limited(asked, p["current_limit"]), 16) if armed else number(0)
         if mode != "voltage":
-            gain = "voltage_gain_high" if abs(tau_ref) > p["region_torque"] else "voltage_gain"
+            region = max(p["region_torque"], number(0))  # its word has no sign
+            gain = "voltage_gain_high" if abs(tau_ref) > region else "voltage_gain"
             volt += floor(self.current * p[gain], 14) - (number(0) if self.emf_in_law else emf)
         applied = limited(volt, p["voltage_window"]) + emf if armed else number(0)
         self.voltage = floor(saturated(floor(applied, 14), 20, 14), 14)

@@ -119,7 +119,7 @@ class Demo(Scratch):
 
     def test_the_launcher_builds_what_it_needs(self):
         jobs = sum(demo.scene_jobs(everything=True), all_figures.jobs(demo.DESIGNS) + observer_section.jobs())
-        needed = {f"feltgate_{job.design}" if job.design in runs.presets() else "feltgate" for job in jobs}
+        needed = {f"feltgate_{job.design}" if job.design in runs.with_own_programs() else "feltgate" for job in jobs}
         built = re.search(r"^demo\|[^|]*\|([^|]*)", text_of("scripts/commands.txt"), re.M)[1].split()
         self.assertEqual(needed - set(built), set())
 

@@ -30,13 +30,13 @@ struct Axis {
 struct AxisOf {
   CoreOut core;
   Axis says;
-  bool is_measured = false;
-  int in_tick = 0;
+  bool is_sample = false, is_measured = false, is_last = false;
   const CoreOut& out() const { return core; }
   bool arm_request(const CoreIn&) const { return says.arm_request; }
   bool zeroed() const { return says.zeroed; }
+  bool samples() const { return is_sample; }
   bool measured() const { return is_measured; }
-  int clock_of_tick() const { return in_tick; }
+  bool last() const { return is_last; }
 };
 
 /// The twin as a separate block.
@@ -44,8 +44,7 @@ class Twin {
  public:
   struct In {
     std::array<Axis, kAxes> axis;
-    bool snapshot = false, measured = false;
-    int clock_of_tick = 0;  ///< the twin's alone, for restarted()
+    bool sample = false, measured = false, last = false;
     std::uint32_t tick_count = 0;
     AxesIn<kAxes> port;
   };
@@ -66,8 +65,9 @@ class Twin {
     Out out;
     std::array<CoreIn, kAxes> each;
     twin_.give(in.port, axes(in), each);
-    for (std::size_t n = 0; n < kAxes; ++n) out.torque[n] = each[n].law_torque;
-    out.late = each[0].law_late;
+    const Program<kAxes> program = twin_.program(in.port, 0);
+    out.torque = program.torque;
+    out.late = program.late;
     out.restart = each[0].law_restart;
     out.unchecked = each[0].axis_silent;
     out.unfit = each[0].axis_blocked;
@@ -86,11 +86,11 @@ class Twin {
     for (std::size_t n = 0; n < kAxes; ++n) {
       AxisOf& a = all[n];
       a.says = in.axis[n];
+      a.is_sample = in.sample;
       a.is_measured = in.measured;
-      a.in_tick = in.clock_of_tick;
+      a.is_last = in.last;
       a.core.scene = in.axis[n].law ? Map::S::law : 0;
       a.core.armed = in.axis[n].armed;
-      a.core.snapshot_valid = in.snapshot;
       a.core.tick_count = in.tick_count;
       a.core.position = in.axis[n].position;
       a.core.velocity = in.axis[n].velocity;
@@ -99,7 +99,7 @@ class Twin {
     return all;
   }
 
-  AxesEngine<LeverLaw, kAxes> twin_;
+  mutable AxesEngine<kAxes> twin_{design_of<LeverLaw>()};  // program() counts what was taken
   In last_;
 };
 
@@ -116,8 +116,9 @@ struct Adapter {
     rtl.arm_request_i = bits(&Axis::arm_request);
     rtl.armed_i = bits(&Axis::armed);
     rtl.zeroed_i = bits(&Axis::zeroed);
-    rtl.snapshot_i = in.snapshot;
+    rtl.sample_i = in.sample;
     rtl.measured_i = in.measured;
+    rtl.last_i = in.last;
     rtl.tick_count_i = in.tick_count;
     rtl.position_i = words(&Axis::position);
     rtl.velocity_i = words(&Axis::velocity);
@@ -177,9 +178,9 @@ class Device {
   Axis& axis(int n) { return in.axis[static_cast<std::size_t>(n)]; }
   void clock() {
     since_ = (since_ + 1) % kTick;
-    in.clock_of_tick = since_;
-    in.snapshot = since_ == 0;
+    in.sample = since_ == 2;
     in.measured = since_ == 23;
+    in.last = since_ == kTick - 1;
     if (in.measured) ++in.tick_count;
     twin_.clock(in);
     inputs_.push_back(in);
@@ -188,7 +189,7 @@ class Device {
   }
   /// A clock between two ticks, which then are further apart.
   void pause() {
-    in.snapshot = in.measured = false;
+    in.sample = in.measured = in.last = false;
     twin_.clock(in);
     inputs_.push_back(in);
   }

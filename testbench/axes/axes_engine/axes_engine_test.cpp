@@ -134,24 +134,24 @@ TEST_CASE("axes_engine: what jumps ramps until it was sampled") {
 }
 
 TEST_CASE(
-    "axes_engine: a wave restarts where the tick before it ended with a torque that may jump") {
+    "axes_engine: a tick restarts where the one before it ended with a torque that may jump") {
   Device device;
   device.load(kLaw, kCrc);
   device.set(&Axis::law, true);
   device.arm();
   Random random(1);
   bool at_end = false, expected = false;
-  int waves = 0, restarts = 0, changes = 0;
+  int ticks = 0, restarts = 0, changes = 0;
   for (int k = 0; k < 20'000; ++k) {
     if (random.one_in(150)) device.axis(1).zeroed = true;
     device.clock();
     if (device.in.measured) {
-      ++waves;
+      ++ticks;
       changes += expected != at_end;
       expected = at_end;
       restarts += expected;
     }
-    if (waves > 1) REQUIRE(device.twin().restarted() == expected);
+    if (ticks > 1) REQUIRE(device.twin().restarted() == expected);
     // What is shown now is of the clock to come, the last one of the tick.
     if (device.clock_of_tick() == Device::kTick - 2) at_end = device.out().restart;
   }

@@ -59,13 +59,11 @@ inline AxesResult run_scene(const AxesScene& scene, const std::string& engine,
                             int row_every = 1,
                             std::function<PenLead(const std::vector<double>&)> lead = nullptr) {
   const std::string design = device_of(scene) + "_law";
-  const AxesDesignMakers* made = find_axes_design(design);
-  REQUIRE(made != nullptr);
   const std::string& named = scene.scenario.law;
   const bool is_file = named.find('/') != std::string::npos;
   const auto law =
       make_axes_law(is_file ? named : std::string(FELTGATE_ROOT) + "/rtl/laws/" + named + ".law",
-                    made->info(), axes_of(scene));
+                    design_named(design), axes_of(scene));
   AxesRunOptions options;
   options.design = design;
   options.engine = engine;

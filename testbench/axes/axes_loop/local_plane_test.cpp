@@ -127,7 +127,7 @@ TEST_CASE("local plane: what a scene cannot ask for") {
   AxesScene scene = scene_named("plane_floor");
   scene.plane->sends_force = true;
   const auto law = make_axes_law(std::string(FELTGATE_ROOT) + "/rtl/laws/local_plane.law",
-                                 find_axes_design("pantograph_law")->info(), 2);
+                                 design_named("pantograph_law"), 2);
   CHECK_THROWS_WITH(PlaneHost::check(*scene.plane, "a.toml", *law),
                     "a.toml:18: law local_plane has no mailbox \"force_x\", which [plane] sends; "
                     "take the law sent_force");

@@ -195,15 +195,14 @@ inline touch::TouchRun run_on(const touch::Mesh& mesh, const std::string& engine
                               touch::TouchRequest request) {
   request.host.latency_s = request.host.jitter_s = 1e-3;
   const AxesScene scene = scene_named("stylus_cube");
-  const AxesDesignMakers* made = find_axes_design("stylus_law");
-  REQUIRE(made != nullptr);
+  const DesignInfo& design = design_named("stylus_law");
   const auto law = make_axes_law(
-      std::string(FELTGATE_ROOT) + "/rtl/laws/" + touch::law_of(request) + ".law", made->info(), 3);
+      std::string(FELTGATE_ROOT) + "/rtl/laws/" + touch::law_of(request) + ".law", design, 3);
   AxesRunOptions options;
   options.design = "stylus_law";
   options.engine = engine;
   options.law = law.get();
-  return touch::run_touch(mesh, request, scene, options, made->info().tick_hz);
+  return touch::run_touch(mesh, request, scene, options, design.tick_hz);
 }
 
 }  // namespace feltgate::test

@@ -158,7 +158,7 @@ TEST_CASE("axes by runs: calm until a torque is too old", "[few]") {
       b.arm(D::S::law);
       REQUIRE(b.by_clock.out().axis[0].armed);
       b.run(D::clocks_per_tick - b.by_clock.clock_of_tick());
-      b.asked = 47;
+      b.asked = FeltgateCore::law_duty_clock - 1;
       for (int k = 0; k < 15; ++k) b.run(D::clocks_per_tick);
       if (divider == 1) {
         CHECK(b.by_clock.out().axis[0].armed);

@@ -2,19 +2,20 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Absolute encoders of several axes, and of an axis with an engine: no sensor that comes after a
-// request to arm opens the gates. The twin alone. Documentation: docs/blocks/supervisor.md
+// request to arm opens the gates. The twin alone. Documentation: docs/blocks/safety.md
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "catch.hpp"
-#include "feltgate/absolute_position.hpp"
+#include "feltgate/axis/absolute.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_axes.hpp"
 #include "feltgate/generated/knob_law.hpp"
 #include "feltgate/generated/lever_absolute.hpp"
 #include "feltgate/generated/lever_current.hpp"
 #include "sim/backends/absolute_sensor.hpp"
+#include "twins.hpp"
 
 using feltgate::AbsoluteSensor;
 using Defect = AbsoluteSensor::Defect;
@@ -79,15 +80,11 @@ class Device {
     ++now_;
   }
 
-  feltgate::FeltgateAxes<D, Axes, true, Engine> twin_;
+  feltgate::test::AxesOf<D, Axes, true, Engine> twin_;
   feltgate::AxesIn<Axes> in_;
-  std::vector<AbsoluteSensor> sensors_{N, AbsoluteSensor{feltgate::absolute_parameters<D>()}};
+  std::vector<AbsoluteSensor> sensors_{N, AbsoluteSensor{feltgate::test::absolute_parameters<D>()}};
   std::int64_t now_ = 0;
   bool host_, opened_ = false;
-};
-
-struct SlowPwm : feltgate::LeverCurrent {
-  static constexpr int pwm_period = 2500;
 };
 
 using OneWithEngine = Device<feltgate::KnobLaw, 1, true>;
@@ -143,8 +140,9 @@ TEST_CASE("late sensor: an axis that asked 20 ms ago arms with no other") {
 }
 
 TEST_CASE("late sensor: a simulation asks once the offset of a current is known, if it is slow") {
-  CHECK(feltgate::design_info<feltgate::LeverCurrent>().request_at(7) == 7);
-  const auto slow = feltgate::design_info<SlowPwm>();
+  feltgate::DesignInfo slow = feltgate::design_info<feltgate::LeverCurrent>();
+  CHECK(slow.request_at(7) == 7);
+  slow.pwm_period = 2500;
   CHECK(slow.request_at(7) == 513 * 2500);
   CHECK(slow.request_at(2'000'000) == 2'000'000);
 }

@@ -14,6 +14,7 @@
 #include "feltgate/device.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/largest.hpp"
+#include "twins.hpp"
 
 namespace {
 
@@ -34,7 +35,7 @@ Most most_of(double swing_rad_s) {
   Most most;
   for (const char* scene : {"free", "setpoint", "membrane", "spring_compression", "spring_tension",
                             "damper", "charge_attract", "charge_repel", "wall"}) {
-    TwinDevice<D> device;
+    TwinDevice device{feltgate::design_info<D>()};
     device.select(scene);
     device.arm();
     const double amplitude_rad = 1.0, rate = swing_rad_s / amplitude_rad;
@@ -55,7 +56,7 @@ Most most_of(double swing_rad_s) {
 template <class D>
 void check_wrong_way() {
   for (const double sign : {1.0, -1.0}) {
-    TwinDevice<D> device;
+    TwinDevice device{feltgate::design_info<D>()};
     device.select("setpoint");
     device.arm();
     double torque_nm = 0;

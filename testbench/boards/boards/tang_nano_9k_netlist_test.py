@@ -40,7 +40,7 @@ class Netlist(unittest.TestCase):
             hz = synth_board.ROUTED[BOARD].clock_hz
             design = synth_board.with_clock(ROOT, "lever", hz, folder)
             run(BUILD / "feltgate_generate", ROOT, "--design", design, "--output", folder / "design")
-            package = folder / "design/feltgate_pkg.sv"
+            package = folder / "design/cfg.sv"
             os.environ["FELTGATE_VENV"] = str(BUILD / "venv-synth")
             options = [word for value in PARAMETERS for word in ("--parameter", value)]
             run(

@@ -171,11 +171,11 @@ TEST_CASE("de0_nano: an open stop circuit faults, and the fault takes the reques
   Board board;
   board.short_press();
   REQUIRE(board.armed());
-  board.top().ESTOP = 1;
+  board.top().estop = 1;
   board.clock(5);
   CHECK_FALSE(board.armed());
   CHECK(board.fault());
-  board.top().ESTOP = 0;
+  board.top().estop = 0;
   board.clock(2 * kSettle);
   CHECK(board.fault());
   CHECK_FALSE(board.armed());
@@ -192,9 +192,9 @@ TEST_CASE("de0_nano: an open stop circuit faults, and the fault takes the reques
 TEST_CASE("de0_nano: KEY[1] held during a fault clears it and leaves the zero") {
   Board board;
   board.short_press();
-  board.top().ESTOP = 1;
+  board.top().estop = 1;
   board.clock(5);
-  board.top().ESTOP = 0;
+  board.top().estop = 0;
   REQUIRE(board.fault());
   board.clock(kLamp + 1);
   board.zero_was_set();
@@ -210,12 +210,12 @@ TEST_CASE("de0_nano: an encoder that is not plugged in stops, blinks, and must b
   board.short_press();
   REQUIRE(board.armed());
   // Shorter than the debounce of the loop: nothing.
-  board.top().ENC_LOOP = 1;
+  board.top().enc_loop = 1;
   board.clock(6);
-  board.top().ENC_LOOP = 0;
+  board.top().enc_loop = 0;
   board.clock(20);
   CHECK(board.armed());
-  board.top().ENC_LOOP = 1;
+  board.top().enc_loop = 1;
   board.clock(20);
   CHECK_FALSE(board.armed());
   int changes = 0;
@@ -227,7 +227,7 @@ TEST_CASE("de0_nano: an encoder that is not plugged in stops, blinks, and must b
   CHECK(changes == 8);  // a bit of the counter that is two below the heartbeat's
   board.short_press();
   CHECK_FALSE(board.armed());
-  board.top().ENC_LOOP = 0;
+  board.top().enc_loop = 0;
   board.clock(2 * kSettle);
   CHECK_FALSE(board.armed());
   CHECK(board.fault());  // the stop, latched
@@ -239,10 +239,10 @@ TEST_CASE("de0_nano: an encoder that is not plugged in stops, blinks, and must b
 
 TEST_CASE("de0_nano: a press while the encoder is not plugged in does nothing") {
   Board board;
-  board.top().ENC_LOOP = 1;
+  board.top().enc_loop = 1;
   board.clock(20);
   board.short_press();
-  board.top().ENC_LOOP = 0;
+  board.top().enc_loop = 0;
   board.clock(2 * kSettle);
   CHECK_FALSE(board.fault());
   CHECK_FALSE(board.armed());
@@ -253,14 +253,14 @@ TEST_CASE("de0_nano: a press during a fault does not arm when a host clears it")
     INFO(presses << " presses");
     Board board;
     board.short_press();
-    board.top().ESTOP = 1;
+    board.top().estop = 1;
     board.clock(5);
-    board.top().ESTOP = 0;
+    board.top().estop = 0;
     for (int k = 0; k < presses; ++k) board.short_press();
     REQUIRE(board.fault());
-    board.top().ENC_A = board.top().ENC_B = board.top().ENC_Z = 1;
+    board.top().enc_a_i = board.top().enc_b_i = board.top().enc_z_i = 1;
     board.clock(2);
-    board.top().ENC_A = board.top().ENC_B = board.top().ENC_Z = 0;
+    board.top().enc_a_i = board.top().enc_b_i = board.top().enc_z_i = 0;
     board.clock(2);
     CHECK_FALSE(board.fault());
     CHECK_FALSE(board.armed());
@@ -269,13 +269,13 @@ TEST_CASE("de0_nano: a press during a fault does not arm when a host clears it")
 
 TEST_CASE("de0_nano: KEY[1] pressed while a host has armed is a stop, and does not arm") {
   Board board;
-  board.top().ENC_B = board.top().ENC_Z = 1;
+  board.top().enc_b_i = board.top().enc_z_i = 1;
   board.clock(3);
   REQUIRE(board.armed());
   board.bouncing_key(true, kSettle);
   CHECK_FALSE(board.armed());
   CHECK(board.fault());
-  board.top().ENC_B = board.top().ENC_Z = 0;
+  board.top().enc_b_i = board.top().enc_z_i = 0;
   board.bouncing_key(false, kSettle);
   CHECK(board.fault());
   board.hold_key();
@@ -288,7 +288,7 @@ TEST_CASE("de0_nano: KEY[1] pressed while a host has armed is a stop, and does n
 TEST_CASE("de0_nano: KEY[1] asks for nothing that a host has ended, or that was in vain for long") {
   Board board;
   const auto host_has_the_say = [&](bool say) {
-    board.top().ENC_A = board.top().ENC_B = say ? 1 : 0;
+    board.top().enc_a_i = board.top().enc_b_i = say ? 1 : 0;
     board.clock(3);
   };
   for (const bool armed_before : {true, false}) {
@@ -314,11 +314,11 @@ TEST_CASE("de0_nano: KEY[1] asks for nothing that a host has ended, or that was 
 TEST_CASE("de0_nano: KEY[1] held while a host arms asks for nothing when it is let go") {
   Board board;
   board.bouncing_key(true, kLongPress + kSettle);
-  board.top().ENC_B = board.top().ENC_Z = 1;
+  board.top().enc_b_i = board.top().enc_z_i = 1;
   board.clock(3);
   REQUIRE(board.armed());
   board.bouncing_key(false, kSettle);
-  board.top().ENC_B = board.top().ENC_Z = 0;
+  board.top().enc_b_i = board.top().enc_z_i = 0;
   board.clock(3);
   CHECK_FALSE(board.armed());
 }
@@ -337,9 +337,9 @@ TEST_CASE("de0_nano: all switches on shows the encoder and disarms") {
   board.short_press();
   // The stub's position follows A and B, two bits, and Z three further up.
   const auto encoder = [&](int a, int b, int z) {
-    board.top().ENC_A = static_cast<unsigned char>(a);
-    board.top().ENC_B = static_cast<unsigned char>(b);
-    board.top().ENC_Z = static_cast<unsigned char>(z);
+    board.top().enc_a_i = static_cast<unsigned char>(a);
+    board.top().enc_b_i = static_cast<unsigned char>(b);
+    board.top().enc_z_i = static_cast<unsigned char>(z);
     board.clock(5);
   };
   encoder(0, 0, 0);
@@ -388,17 +388,17 @@ TEST_CASE("de0_nano: switches select the scene as one word once they are at rest
 TEST_CASE("de0_nano: encoder, gates and heartbeat are on their pins") {
   Board board;
   for (int levels = 0; levels < 8; ++levels) {
-    board.top().ENC_A = static_cast<unsigned char>(levels & 1);
-    board.top().ENC_B = static_cast<unsigned char>(levels >> 1 & 1);
-    board.top().ENC_Z = static_cast<unsigned char>(levels >> 2 & 1);
+    board.top().enc_a_i = static_cast<unsigned char>(levels & 1);
+    board.top().enc_b_i = static_cast<unsigned char>(levels >> 1 & 1);
+    board.top().enc_z_i = static_cast<unsigned char>(levels >> 2 & 1);
     board.clock(1);
-    CHECK(board.top().GATE_A_HI == (levels & 1));
-    CHECK(board.top().GATE_A_LO == (levels >> 1 & 1));
-    CHECK(board.top().GATE_B_HI == (levels >> 2 & 1));
+    CHECK(board.top().gate_a_hi_o == (levels & 1));
+    CHECK(board.top().gate_a_lo_o == (levels >> 1 & 1));
+    CHECK(board.top().gate_b_hi_o == (levels >> 2 & 1));
   }
   board.top().SW = 14;
   board.clock(2 * kSettle);
-  CHECK(board.top().GATE_B_LO == 1);
+  CHECK(board.top().gate_b_lo_o == 1);
   const bool before = board.lamp(7);
   board.clock(32);
   CHECK(board.lamp(7) != before);

@@ -170,7 +170,7 @@ TEST_CASE("wishbone_port: every word is read, three clocks after its request") {
     const Host::Answer a = host.request(false, adr, 0, adr & 15);
     REQUIRE(a.good == port_reads(adr));
     REQUIRE(a.clocks == 3);
-    if (adr < 512) REQUIRE(a.dat == host.core.twin().parameter(adr));
+    if (adr < 512) REQUIRE(a.dat == host.core.parameter(adr));
   }
   REQUIRE(host.core.taken() == 0);
   host.play();
@@ -226,16 +226,16 @@ TEST_CASE("wishbone_port: a disarm is on the port with its request, whatever wai
     host.until(0);
     REQUIRE(host.request(true, Lever::C::control, kHost | kArm).good);
     host.until(0);
-    REQUIRE((host.core.twin().out().control & kArm) != 0);
+    REQUIRE((host.core.control() & kArm) != 0);
     REQUIRE(host.request(true, Lever::A::ramp_step, 5).good);
     REQUIRE(host.core.busy());
     for (int k = 0; k < reads; ++k) host.clock({true, true, false, 7, 15, 0});
-    REQUIRE_FALSE(host.core.twin().out().disarm);
+    REQUIRE_FALSE(host.core.disarm());
     const Twin::In disarm{true, true, true, Lever::C::control, 15, kHost};
     host.clock(disarm);
-    REQUIRE(host.core.twin().out().disarm);
+    REQUIRE(host.core.disarm());
     while (host.core.busy()) host.clock(disarm);
-    REQUIRE((host.core.twin().out().control & kArm) == 0);
+    REQUIRE((host.core.control() & kArm) == 0);
     host.play();
   }
 }
@@ -250,7 +250,7 @@ TEST_CASE("wishbone_port: a request in every clock is answered in every clock, i
         {true, asks, false, static_cast<std::uint16_t>(asks ? (k * 37) % 512 : 0), 15, 0});
     REQUIRE(out.ack == (k >= 3));
     if (!out.ack) continue;
-    REQUIRE(out.dat == host.core.twin().parameter((answers * 37) % 512));
+    REQUIRE(out.dat == host.core.parameter((answers * 37) % 512));
     ++answers;
   }
   REQUIRE(answers == 512);
@@ -269,7 +269,7 @@ TEST_CASE("wishbone_port: a cycle that ends early gets no answer, nor does the n
       host.idle(gap);
       const Host::Answer a = host.request(false, Lever::A::velocity_a1);
       REQUIRE(a.clocks == 3);
-      REQUIRE(a.dat == host.core.twin().parameter(Lever::A::velocity_a1));
+      REQUIRE(a.dat == host.core.parameter(Lever::A::velocity_a1));
       host.play();
     }
   }

@@ -23,5 +23,5 @@ function(feltgate_coverage_share name target blocks)
 endfunction()
 
 add_custom_target(coverage_share ALL)
-feltgate_coverage_share(coverage.share coverage_share "rounding;hold_timer")
-feltgate_coverage_share(coverage.share.whole whole "quad_decoder;pwm;encoder_monitor" ${FELTGATE_WHOLE})
+feltgate_coverage_share(coverage.share coverage_share "encoder_monitor")
+feltgate_coverage_share(coverage.share.whole whole "quad_decoder;pwm" ${FELTGATE_WHOLE})

@@ -30,9 +30,7 @@ COARSE = {
     "formats.current": [1, 5, 12],
     "formats.voltage": [1, 5, 10],
     "formats.observer_fraction": 18,
-    "formats.coefficient_bits": 12,
     "formats.rounding": "floor",
-    "fabric.multipliers": "parallel",
 }
 
 
@@ -50,7 +48,7 @@ class Evaluation(unittest.TestCase):
         return len(list((Path(self.folder.name) / "structures").iterdir()))
 
     @weekly(3)
-    def test_floor_narrow_slow_and_parallel_matches_and_is_measured(self):
+    def test_floor_narrow_and_slow_matches_and_is_measured(self):
         result = self.evaluate(COARSE)
         self.assertEqual(result["status"], "ok")
         self.assertTrue(result["coarse"])
@@ -80,12 +78,9 @@ class Evaluation(unittest.TestCase):
 
     @weekly(3)
     def test_a_defect_of_the_rtl_fails_the_point(self):
-        # The second is of the supervisor's own multiplier, and seen by the heat alone.
-        for name, changes in (
-            ("estimators/dob/defects.diff/other_sign_of_inertia", {}),
-            ("campaigns/explore/defects.diff/supervisor_multiplies_for_control", COARSE),
-        ):
-            defect = ROOT / "testbench" / name
+        # The second is seen by the heat alone.
+        for name, changes in (("other_sign_of_inertia", {}), ("heat_forgets_back_emf", COARSE)):
+            defect = ROOT / "testbench/campaigns/explore/defects.diff" / name
             folder = Path(self.folder.name, defect.name)
             copies = {p.name: p for p in patches.write_copies(defect, folder)}
             sources = [copies.get(path.name, path) for path in point.core_rtl()]

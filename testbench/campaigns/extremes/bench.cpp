@@ -95,10 +95,7 @@ void Bench::report(Outcome* outcome) const {
   outcome->mismatches += lead.mismatches();
 }
 
-void use_wide_design() {
-  add_design({"wide", make_design_backend<Vextremes_wide, Wide>, make_design_chain<Wide>,
-              design_info<Wide>});
-}
+void use_wide_design() { add_rtl(Wide::name, Wide::design_crc, make_rtl<Vextremes_wide>); }
 
 plant::Parameters shipped_plant(const Settings& settings, const std::string& name) {
   return plant::read_plant_file(settings.root + "/vectors/plants/" + name + ".toml");

@@ -17,6 +17,7 @@
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/largest.hpp"
+#include "twins.hpp"
 
 namespace feltgate::extremes {
 
@@ -60,7 +61,7 @@ class LongRun {
     core_.run(in_, n, [] {});
   }
 
-  FeltgateCore<Lever> core_;
+  test::CoreOf<Lever> core_;
   CoreIn in_;
   std::int64_t clock_ = 0, count_ = 0, edges_ = 0;
 };

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "campaigns/extremes/bench.hpp"
-#include "encoder/quad_decoder/adapter.hpp"
+#include "core/quad_decoder/adapter.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {

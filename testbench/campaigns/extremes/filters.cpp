@@ -3,18 +3,20 @@
 //
 // Extremes of the low-pass filters: dead bands per rounding mode, the dyadic trap, a pole of
 // 1 - 5e-6, coefficients at 0 and at their largest. Documentation: docs/extremes.md
-#include <Vlowpass.h>
-#include <Vlowpass_convergent.h>
-#include <Vlowpass_truncate.h>
+#include <Vfilter_convergent.h>
+#include <Vfilter_down.h>
+#include <Vfilter_half_up.h>
 
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "campaigns/extremes/bench.hpp"
 #include "campaigns/extremes/dead_band.hpp"
 #include "design/design.hpp"
+#include "feltgate/axis/velocity_estimator.hpp"
+#include "feltgate/generated/lever.hpp"
 #include "feltgate/largest.hpp"
-#include "feltgate/lowpass.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/backends/rtl_model.hpp"
 
@@ -22,104 +24,92 @@ namespace feltgate::extremes {
 
 namespace {
 
-// The low-pass alone at its default widths. Each rounding mode has its own RTL class. One sample
-// takes six clocks.
-constexpr Format lowpass_state{1, 31, 0}, lowpass_operand{1, 32, 0}, lowpass_a1{0, -10, 27};
-
-/// The twin's law.
-template <Round R>
-class LowpassTwin {
- public:
-  void start(std::int64_t y) { y_ = y; }
-  std::int64_t sample(std::int64_t x, std::int64_t a1) {
-    using Law = LowpassLaw<Fixed, lowpass_state.key(), lowpass_operand.key(), R>;
-    using A1 = fixed_of<lowpass_a1.key()>;
-    const auto word = [](std::int64_t raw) {
-      return Law::State::from_raw(static_cast<typename Law::State::raw_type>(raw));
-    };
-    y_ = Law::template step<lowpass_a1.key()>(word(x), word(y_),
-                                              A1::from_raw(static_cast<typename A1::raw_type>(a1)))
-             .raw();
-    return y_;
-  }
-
- private:
-  std::int64_t y_ = 0;
-};
-
-/// Rtl is Verilator's class of lowpass with one rounding mode.
-template <class Rtl>
-class LowpassAlone {
- public:
-  LowpassAlone() { rtl_.reset(1); }
-
-  /// Sets the state to `y`.
-  void start(std::int64_t y) { sample(y, 0, true); }
-  /// Runs one sample; returns the new state.
-  std::int64_t sample(std::int64_t x, std::int64_t a1, bool follow = false) {
-    rtl_->x_i = static_cast<std::uint32_t>(x);
-    rtl_->follow_i = follow;
-    rtl_->valid_i = 1;
-    edge();
-    rtl_->valid_i = 0;
-    // 33 bits of difference times the coefficient, as the shared multiplier computes it.
-    const std::int64_t operand = static_cast<std::int64_t>(rtl_->operand_o << 31) >> 31;
-    for (int k = 0; k < 4; ++k) edge();
-    rtl_->product_i = static_cast<std::uint64_t>(operand * a1) & ((std::uint64_t{1} << 53) - 1);
-    rtl_->update_i = 1;
-    edge();
-    rtl_->update_i = 0;
-    return static_cast<std::int32_t>(rtl_->y_o);
-  }
-  double seconds() const { return static_cast<double>(clocks_) * 20e-9; }
-
- private:
-  void edge() {
-    rtl_.clock();
-    ++clocks_;
-  }
-
-  RtlModel<Rtl> rtl_{1};
-  std::int64_t clocks_ = 0;
-};
-
-using LowpassRtl = LowpassAlone<Vlowpass>;  ///< half up, as in every shipped design
-
-constexpr int fraction = lowpass_a1.fraction;
+// The velocity estimator of lever alone: its low-pass, in three roundings. A count in the window
+// is an input of 2^22 LSB of its state.
+constexpr int fraction = Lever::P::velocity_a1.fraction;
 constexpr double one = 1 << fraction;
+constexpr std::int64_t count = std::int64_t{1} << 22;
 
-/// The values at which a filter comes to rest around an input, from above and from below.
+/// The twin's law. Both filters begin at 0.
+class FilterTwin {
+ public:
+  explicit FilterTwin(axis::Rounding rounding) : law_(design(rounding)) {}
+  /// One sample of an input of so many counts; returns the new state.
+  std::int64_t sample(std::int64_t counts, std::int64_t a1) {
+    words_.velocity_a1 = a1;
+    state_ = law_.tick(state_, words_, static_cast<std::int16_t>(counts));
+    return state_.velocity;
+  }
+
+ private:
+  using Law = axis::VelocityEstimator<axis::Fixed>;
+  static axis::Design design(axis::Rounding rounding) {
+    axis::Design d = axis::Design::of<Lever>();
+    d.constants["ROUNDING"] = static_cast<std::int64_t>(rounding);
+    return d;
+  }
+  Law law_;
+  axis::Words<std::int64_t> words_;
+  Law::State state_;
+};
+
+/// Rtl: Verilator's class with one of the roundings. One sample takes five clocks.
+template <class Rtl>
+class FilterAlone {
+ public:
+  FilterAlone() { rtl_.reset(1); }
+  std::int64_t sample(std::int64_t counts, std::int64_t a1) {
+    std::int16_t& travel = line_[place_];  // of a window ago
+    travel = static_cast<std::int16_t>(travel + counts);
+    place_ = (place_ + 1) % line_.size();
+    rtl_->travel_i = static_cast<std::uint16_t>(travel);
+    rtl_->a1_i = static_cast<std::uint32_t>(a1);
+    for (int k = 0; k < 5; ++k) {
+      rtl_->sample_i = k == 0;
+      rtl_.clock();
+    }
+    ++samples_;
+    return static_cast<std::int32_t>(rtl_->velocity_o);
+  }
+  double seconds() const { return static_cast<double>(samples_) * 5 * 20e-9; }
+
+ private:
+  RtlModel<Rtl> rtl_{1};
+  std::vector<std::int16_t> line_ = std::vector<std::int16_t>(Lever::m1);
+  std::size_t place_ = 0;
+  std::int64_t samples_ = 0;
+};
+
+using FilterRtl = FilterAlone<Vfilter_half_up>;  // as in every shipped design
+
+/// The values at which a filter comes to rest around an input, from below and from above.
 struct Rest {
   std::int64_t low = 0, high = 0;
 };
 
-/// Runs from the state y until the filter stands still.
 template <class Filter>
-std::int64_t settled(Filter& filter, std::int64_t y, std::int64_t x, std::int64_t a1) {
-  filter.start(y);
+std::int64_t settled(Filter& filter, std::int64_t counts, std::int64_t a1) {
+  std::int64_t y = filter.sample(counts, a1);
   for (std::int64_t before = y + 1; before != y;) {
     before = y;
-    y = filter.sample(x, a1);
+    y = filter.sample(counts, a1);
   }
   return y;
 }
 
 template <class Filter>
-Rest rest(Filter& filter, std::int64_t input, std::int64_t a1) {
-  Rest r;
-  // Starts on both sides, some beyond the band and some inside it.
-  for (const std::int64_t offset : {-3000000, -1500, 1500, 3000000}) {
-    const std::int64_t off = settled(filter, input + offset, input, a1) - input;
-    r.low = std::min(r.low, off);
-    r.high = std::max(r.high, off);
-  }
-  return r;
+Rest rest(Filter& filter, std::int64_t a1) {
+  const std::int64_t low = settled(filter, 1, a1) - count;
+  return {low, settled(filter, 0, a1)};
 }
-
-template <Round R>
-Rest twin_rest(std::int64_t input, std::int64_t a1) {
-  LowpassTwin<R> twin;
-  return rest(twin, input, a1);
+Rest twin_rest(axis::Rounding rounding, std::int64_t a1) {
+  FilterTwin twin(rounding);
+  return rest(twin, a1);
+}
+template <class Rtl>
+Rest rtl_rest(std::int64_t a1) {
+  FilterAlone<Rtl> rtl;
+  return rest(rtl, a1);
 }
 
 /// Returns the least number of guard bits for which the band is below half an output LSB.
@@ -128,12 +118,10 @@ double guard_bits(const Rest& r) {
   return std::floor(std::log2(2 * widest)) + 1;
 }
 
-struct Mode {
-  const char* name;
-  Round round;
-  Rest (*twin)(std::int64_t, std::int64_t);
-  double guard_bits;  ///< value in the documentation's table
-};
+/// Returns the final error for a constant input with `g` guard bits, in output LSB, from above.
+double output_error(const Rest& r, int g) {
+  return std::floor(std::ldexp(static_cast<double>(r.high), -g) + 0.5);
+}
 
 void add(Outcome* o, const std::string& what, const std::string& unit, const Expected& expected,
          std::optional<double> rtl, std::optional<double> twin, std::optional<double> real) {
@@ -143,18 +131,21 @@ void add(Outcome* o, const std::string& what, const std::string& unit, const Exp
 Outcome dead_bands(const Settings&) {
   Outcome o;
   const std::int64_t a1 = std::llround(5e-4 * one);
-  const Mode modes[] = {{"truncate", Round::truncate, twin_rest<Round::truncate>, 12},
-                        {"half up", Round::half_up, twin_rest<Round::half_up>, 11},
-                        {"convergent", Round::convergent, twin_rest<Round::convergent>, 11}};
-  LowpassRtl half_up;
-  LowpassAlone<Vlowpass_truncate> truncate;
-  LowpassAlone<Vlowpass_convergent> convergent;
+  struct Mode {
+    const char* name;
+    Round round;
+    axis::Rounding rounding;
+    Rest (*rtl)(std::int64_t);
+    double guard_bits;  ///< value in the documentation's table
+  };
+  using axis::Rounding;
+  const Mode modes[] = {
+      {"truncate", Round::truncate, Rounding::down, rtl_rest<Vfilter_down>, 12},
+      {"half up", Round::half_up, Rounding::half_up, rtl_rest<Vfilter_half_up>, 11},
+      {"convergent", Round::convergent, Rounding::half_to_even, rtl_rest<Vfilter_convergent>, 11}};
   for (const Mode& m : modes) {
     const Band expected = dead_band(m.round, a1, fraction);
-    const Rest twin = m.twin(40000, a1);
-    const Rest hardware = m.round == Round::half_up    ? rest(half_up, 40000, a1)
-                          : m.round == Round::truncate ? rest(truncate, 40000, a1)
-                                                       : rest(convergent, 40000, a1);
+    const Rest twin = twin_rest(m.rounding, a1), hardware = m.rtl(a1);
     const std::string name = std::string(", ") + m.name;
     add(&o, "lowest rest" + name, "state LSB", exactly(static_cast<double>(expected.low)),
         hardware.low, twin.low, 0);
@@ -169,35 +160,25 @@ Outcome dead_bands(const Settings&) {
   return o;
 }
 
-/// Returns the final error for a constant input with `g` guard bits, in output LSB, starting 100
-/// LSB above.
-template <class Filter>
-double output_error(Filter& filter, std::int64_t a1, int g) {
-  const std::int64_t lsb = std::int64_t{1} << g;
-  const auto y = static_cast<double>(settled(filter, 105 * lsb, 5 * lsb, a1));
-  return std::floor(y / static_cast<double>(lsb) + 0.5) - 5;
-}
-
 Outcome dyadic_trap(const Settings&) {
   Outcome o;
   const std::int64_t a1 = std::int64_t{1} << (fraction - 11);
-  LowpassRtl rtl;
-  LowpassTwin<Round::half_up> half_up;
-  LowpassAlone<Vlowpass_convergent> convergent;
-  LowpassTwin<Round::convergent> convergent_twin;
-  const Rest hardware = rest(rtl, 40000, a1), twin = rest(half_up, 40000, a1);
+  const Rest hardware = rtl_rest<Vfilter_half_up>(a1);
+  const Rest twin = twin_rest(axis::Rounding::half_up, a1);
   add(&o, "highest rest, a1 = 2^-11: exactly half of 2^11", "state LSB", exactly(1024),
       hardware.high, twin.high, 0);
   add(&o, "lowest rest", "state LSB", exactly(-1023), hardware.low, twin.low, 0);
   for (const int g : {11, 12}) {
     add(&o, "lasting output error with " + number(g) + " guard bits", "output LSB",
-        exactly(g == 11 ? 1 : 0), output_error(rtl, a1, g), output_error(half_up, a1, g), 0);
+        exactly(g == 11 ? 1 : 0), output_error(hardware, g), output_error(twin, g), 0);
   }
   add(&o, "the same, convergent, 11 guard bits", "output LSB", exactly(1),
-      output_error(convergent, a1, 11), output_error(convergent_twin, a1, 11), 0);
+      output_error(rtl_rest<Vfilter_convergent>(a1), 11),
+      output_error(twin_rest(axis::Rounding::half_to_even, a1), 11), 0);
   const std::int64_t neighbour = std::llround(5e-4 * one);
   add(&o, "not dyadic, a1 = 5e-4, 11 guard bits", "output LSB", exactly(0),
-      output_error(rtl, neighbour, 11), output_error(half_up, neighbour, 11), 0);
+      output_error(rtl_rest<Vfilter_half_up>(neighbour), 11),
+      output_error(twin_rest(axis::Rounding::half_up, neighbour), 11), 0);
   o.note = "The filter alone.";
   return o;
 }
@@ -206,8 +187,8 @@ Outcome slow_pole(const Settings&) {
   Outcome o;
   const std::int64_t a1 = std::llround(5e-6 * one);
   const double a = static_cast<double>(a1) / one;
-  LowpassRtl rtl;
-  const Rest hardware = rest(rtl, 40000, a1), twin = twin_rest<Round::half_up>(40000, a1);
+  const Rest hardware = rtl_rest<Vfilter_half_up>(a1);
+  const Rest twin = twin_rest(axis::Rounding::half_up, a1);
   const Band band = dead_band(Round::half_up, a1, fraction);
   add(&o, "highest rest: 1/(2 a1)", "state LSB", exactly(static_cast<double>(band.high)),
       hardware.high, twin.high, 0);
@@ -215,15 +196,14 @@ Outcome slow_pole(const Settings&) {
       guard_bits(twin), {});
   add(&o, "a1 with 16 fraction bits", "", exactly(0), {}, std::llround(5e-6 * 65536), 5e-6);
   // Settling of the filter alone, sample by sample; double computes the same recurrence.
-  const std::int64_t step = 1'000'000'000;
-  LowpassTwin<Round::half_up> filter;
-  rtl.start(0);
-  filter.start(0);
+  constexpr std::int64_t counts = 239, step = counts * count;
+  FilterRtl rtl;
+  FilterTwin filter(axis::Rounding::half_up);
   std::int64_t core_settled = 0, rtl_settled = 0, real_settled = 0;
   double real = 0;
   for (std::int64_t k = 1; k <= 900'000; ++k) {
-    const std::int64_t h = rtl.sample(step, a1);
-    const std::int64_t y = filter.sample(step, a1);
+    const std::int64_t h = rtl.sample(counts, a1);
+    const std::int64_t y = filter.sample(counts, a1);
     real += a * (static_cast<double>(step) - real);
     if (h < step / 50 * 49) rtl_settled = k;
     if (y < step / 50 * 49) core_settled = k;
@@ -262,7 +242,7 @@ Outcome slow_pole(const Settings&) {
 Outcome coefficient_zero(const Settings&) {
   Outcome o;
   Bench b("paper", Cores::lock_step);
-  for (int i = 0; i < b.design().parameter_count; ++i) {
+  for (std::size_t i = 0; i < b.design().parameters.size(); ++i) {
     const ParameterInfo& p = b.design().parameters[i];
     // Only the coefficients change; limits and scene geometry stay.
     if (std::string(p.unit).find('/') == std::string::npos && std::string(p.unit) != "1") continue;
@@ -296,7 +276,7 @@ Outcome coefficient_max(const Settings&) {
   Outcome o;
   Bench b("paper", Cores::lock_step);
   double a1_max = 0;
-  for (int i = 0; i < b.design().parameter_count; ++i) {
+  for (std::size_t i = 0; i < b.design().parameters.size(); ++i) {
     const ParameterInfo& p = b.design().parameters[i];
     const int mantissa = p.format.width() - p.format.sign;
     if (mantissa != 17 || p.address >= 64) continue;  // a coefficient

@@ -30,7 +30,7 @@ Outcome stall_pole(const Settings&) {
   use_wide_design();
   Outcome o;
   for (const double kp : {0.0, 800.0, 1600.0, 3000.0, 4000.0}) {
-    Bench b("wide", Cores::lock_step);
+    Bench b(FELTGATE_WIDE_DESIGN, Cores::lock_step);
     for (const auto& [name, value] : gains(kp)) b.set(name, value);
     b.set("current_limit", 31);
     b.set("setpoint_torque", 0);
@@ -147,7 +147,7 @@ Outcome inertia_ratio(const Settings& s) {
       f.chaotic = true;
       for (const Driver d : {p.rtl ? Driver::lock_step : Driver::twin, Driver::real}) {
         const auto plant = plant_at(s, jn, share * limit);
-        fill(&f, d, let_go("wide", plant, gains(p.kp), d, &o).late_share);
+        fill(&f, d, let_go(FELTGATE_WIDE_DESIGN, plant, gains(p.kp), d, &o).late_share);
       }
       o.findings.push_back(f);
     }

@@ -19,13 +19,14 @@
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
 #include "sim/traces/open.hpp"
+#include "twins.hpp"
 
 namespace feltgate::faults {
 
 namespace {
 
 using test::Random;
-using Core = FeltgateCore<Lever, false>;
+using Core = test::CoreOf<Lever, false>;
 
 constexpr int kTick = Lever::clocks_per_tick;
 

@@ -75,7 +75,8 @@ TEST_CASE("faults: every state bit has a name and a group") {
     ++groups[b.group];
   }
   CHECK(groups["pwm"] > 50);
-  CHECK(groups["supervisor"] > 200);
+  CHECK(groups["monitors"] > 200);
+  CHECK(groups["arming and stop"] > 30);
   CHECK(groups["position"] > 100);
   CHECK(groups["encoder inputs"] > 20);
   CHECK(groups["parameter RAM"] > 1500);
@@ -129,7 +130,7 @@ TEST_CASE("faults: flips end safely, what is broken is seen, and the listed case
     CHECK(o.why == "position");
   });
   // A register that the next tick writes anew.
-  flips.add(at_the_wall("u_dob.tau_hat_o", 3), [](const Outcome& o) {
+  flips.add(at_the_wall("u_observer.tau_hat_o", 3), [](const Outcome& o) {
     CHECK(o.is <= Class::transient);
     CHECK(o.peak_nm < 0.025);
   });

@@ -20,12 +20,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
 import rtl_sources  # noqa: E402
 
 TOP = rtl_sources.CORE
+MODEL = f"feltgate_core__DOT__gen_{TOP.removesuffix('_top')}__DOT__u_top"  # the device in what is Verilated
 
 
 def sources(root, design):
-    listed = (root / "rtl/feltgate_core.f").read_text(encoding="utf-8").split("\n")
-    names = [f"generated/{design}/feltgate_pkg.sv",
-             *(n for n in listed if n and not n.startswith("//"))]
+    names = [f"generated/{design}/cfg.sv", *rtl_sources.core_files(root)]
     return [root / "rtl" / name for name in names]
 
 
@@ -55,21 +54,24 @@ def names_by_bits(module):
 
 def member(name, members):
     nested = name.replace(".", "__DOT__").replace("[", "__BRA__").replace("]", "__KET__")
-    for candidate in (f"{TOP}__DOT__{nested}", nested):
+    above, block, port = f"{MODEL}__DOT__{nested}".rsplit("__DOT__", 2)
+    # The second: an output port that is wired to a field of a struct. The last two: one of the device itself.
+    for candidate in (f"{MODEL}__DOT__{nested}", f"{above}__DOT____Vcellout__{block}__{port}",
+                      f"feltgate_core__DOT__{nested}", nested):
         if candidate in members:
             return candidate
     return None
 
 
-def rank(name):
-    """A register by its own name, before the ports that it comes out of; deeper before higher."""
-    kind = 0 if re.search(r"_q\d?$", name) else 1 if name.endswith("_o") else 2
-    return (kind, -name.count("."), len(name), name)
+def rank(name, bits):
+    """A register by its own name, before its block's output, before what that is wired to, a struct of the device last."""
+    own, output = re.search(r"_q\d?$", name), name.endswith("_o") and "." in name
+    return (not own, not output, name.endswith("_i"), -name.count("."), len(bits), len(name), name)
 
 
 def in_its_block(name):
-    """Without the room of its block, and the choice that it is of: a block's name says which."""
-    return re.sub(rf"^u_({'|'.join(rtl_sources.WIRED_ROOMS)})\.(g_\w+\.)?(?=u_)", "", name)
+    """Without the modules of wires around its block."""
+    return re.sub(rf"^(u_({'|'.join(rtl_sources.WIRED_ROOMS)})\.)+(?=u_)", "", name)
 
 
 def flops(module, members):
@@ -87,7 +89,7 @@ def flops(module, members):
         if kind not in ("$dff", "$adff"):
             continue
         for bit in cell["connections"]["Q"]:
-            choices = sorted((rank(n), n, bits) for bits in whole[bit] for n in nets[bits])
+            choices = sorted((rank(n, bits), n, bits) for bits in whole[bit] for n in nets[bits])
             name, bits = in_its_block(choices[0][1]), choices[0][2]
             kept = [(n, bits_of, m) for _, n, bits_of in choices if (m := member(n, members))]
             if not kept:

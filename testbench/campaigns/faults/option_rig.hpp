@@ -36,6 +36,7 @@
 #include "sim/plant/plant_file.hpp"
 #include "sim/plant/sigma_delta.hpp"
 #include "sim/plant/three_phase.hpp"
+#include "twins.hpp"
 
 namespace feltgate::faults {
 
@@ -73,7 +74,7 @@ class Rig {
       : hall_(p.phases ? p.phases->hall : std::nullopt),
         motor_(made(turned(std::move(p), offset_rad), hand)),
         modulators_{modulator(), modulator()} {
-    if constexpr (D::absolute_encoder != 0) sensor_.emplace(absolute_parameters<D>());
+    if constexpr (D::absolute_encoder != 0) sensor_.emplace(test::absolute_parameters<D>());
     if (hall_) hall_->begin_rad += offset_rad;  // else they would turn with the rotor
     in_.encoder = motor_.encoder().pins();
     sense_hall();
@@ -282,7 +283,7 @@ class Rig {
     pins(now_);
   }
 
-  FeltgateCore<D> core_;
+  test::CoreOf<D> core_;
   CoreIn in_;
   std::optional<plant::HallLines> hall_;
   Motor motor_;

@@ -19,6 +19,7 @@
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
 #include "sim/plant/hand.hpp"
+#include "twins.hpp"
 
 namespace feltgate::faults {
 
@@ -112,7 +113,7 @@ class BrokenPins {
 /// The core's twin with its pins, panel and host.
 class Device {
  public:
-  FeltgateCore<D> core;
+  test::CoreOf<D> core;
   CoreIn in;
 
   /// A tick's clocks; a write is taken in its fifth.

@@ -23,6 +23,7 @@
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
 #include "sim/backends/rtl_ports.hpp"
+#include "twins.hpp"
 
 void Vfaults___024root___eval_settle(Vfaults___024root* vlSelf);
 
@@ -31,6 +32,10 @@ namespace feltgate::faults {
 namespace {
 
 using D = Lever;
+
+/// A memory of the axis.
+#define FELTGATE_AXIS(NAME) \
+  rtl_->rootp->feltgate_core__DOT__gen_lever__DOT__u_top__DOT__u_axis__DOT__##NAME
 
 /// The Verilated core with access to its state. A test can flip a flip-flop or a word of a memory
 /// (all logic that depends on it is evaluated again), and copy and compare the whole state.
@@ -69,22 +74,20 @@ class RtlState {
     if (((byte_of(f) & mask_of(f)) != 0) != level) flip(flop);
   }
   void flip_parameter(int address, int bit) {
-    rtl_->rootp
-        ->feltgate_core__DOT__u_wave__DOT__u_registers__DOT__parameter_ram[static_cast<std::size_t>(
-            address)] ^= QData{1} << bit;
+    FELTGATE_AXIS(u_host__DOT__u_params__DOT__ram)
+    [static_cast<std::size_t>(address)] ^= QData{1} << bit;
     settle();
   }
   void flip_line(int address, int bit) {
-    auto& word =
-        rtl_->rootp->feltgate_core__DOT__u_estimators__DOT__g_n_method__DOT__u_velocity_n__DOT__line
-            [static_cast<std::size_t>(address)];
+    auto& word = FELTGATE_AXIS(
+        u_velocity_estimator__DOT__u_window__DOT__line)[static_cast<std::size_t>(address)];
     word = static_cast<SData>(word ^ (1u << bit));
     settle();
   }
 
   void drive(const CoreIn& in) {
     in_ = in;
-    drive_inputs<D>(*rtl_, in);
+    drive_inputs(*rtl_, feltgate::test::port_bits<D>(), in);
   }
   /// One clock with the inputs that were driven.
   void clock() {
@@ -99,7 +102,7 @@ class RtlState {
     return static_cast<unsigned>(rtl_->gate_a_hi_o | rtl_->gate_a_lo_o << 1 |
                                  rtl_->gate_b_hi_o << 2 | rtl_->gate_b_lo_o << 3);
   }
-  CoreOut out() const { return read_outputs<D>(*rtl_); }
+  CoreOut out() const { return read_outputs(*rtl_, feltgate::test::port_bits<D>()); }
 
  private:
   unsigned char& byte_of(const Flop& f) {
@@ -171,7 +174,9 @@ void sort_in(StateBit* b) {
     b->group = group;
     b->safety = safety;
   };
-  if (begins(n, "u_snapshot") || begins(n, "u_registers.g_read")) return is("read-back", false);
+  for (const char* shown : {"u_snapshot", "u_host.addr_", "u_host.reg_rdata_o", "u_params.read_"}) {
+    if (begins(n, shown)) return is("read-back", false);
+  }
   if (begins(n, "u_quad_decoder.")) {
     const std::string r = n.substr(15);
     for (const char* input : {"meta_q", "sync_q", "previous_q", "level_q", "fill_q", "primed_q",
@@ -183,19 +188,24 @@ void sort_in(StateBit* b) {
     }
     return is("position");
   }
-  if (begins(n, "u_encoder.")) return is("position");
-  if (begins(n, "u_velocity_n")) return is("velocity");
-  if (begins(n, "u_dob")) return is("observer");
-  if (begins(n, "u_scenes")) return is("scenes");
-  if (begins(n, "u_pwm")) return is("pwm");
-  if (begins(n, "u_supervisor")) return is("supervisor");
-  if (begins(n, "u_sequencer")) return is("sequencer");
-  if (begins(n, "u_registers") || begins(n, "u_wave.scene_o")) return is("words and control");
-  for (const char* monitor :
-       {"u_encoder_monitor", "u_hold_timer", "u_self_test", "u_velocity_jump"}) {
-    if (begins(n, monitor)) return is("monitors");
+  constexpr std::pair<const char*, const char*> groups[] = {{"u_axis.", "position"},
+                                                            {"u_velocity_estimator", "velocity"},
+                                                            {"u_observer", "observer"},
+                                                            {"u_scene", "scenes"},
+                                                            {"u_ramp", "torque path"},
+                                                            {"u_torque_law", "torque path"},
+                                                            {"u_pwm", "pwm"},
+                                                            {"u_tick_counter", "ticks"},
+                                                            {"u_registers", "words and control"},
+                                                            {"u_params", "words and control"},
+                                                            {"u_host", "words and control"},
+                                                            {"u_arming", "arming and stop"},
+                                                            {"u_stop_latch", "arming and stop"},
+                                                            {"u_fault_latch", "arming and stop"}};
+  for (const auto& [block, group] : groups) {
+    if (begins(n, block)) return is(group);
   }
-  is("torque path");
+  is("monitors");
 }
 
 constexpr int kTick = D::clocks_per_tick;
@@ -384,7 +394,7 @@ class Branches {
   TorqueJudge::Motor motor_;
   Limits limits_;
   RtlState golden_, faulty_, sound_;
-  FeltgateCore<D> twin_;
+  test::CoreOf<D> twin_;
   Loop loop_;
   CoreIn in_;
   std::vector<StateBit> bits_;

@@ -13,8 +13,8 @@
 #include <stdexcept>
 
 #include "design/generate.hpp"
+#include "design/generate_cfg.hpp"
 #include "design/host_words.hpp"
-#include "design/schedule.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "host/board/recording.hpp"
 #include "law/derive.hpp"
@@ -166,8 +166,10 @@ Ending config_ending(Use use) {
 /// Elaborates as far as it goes and makes every text that would be written.
 void make_all(const design::Design& d, const design::RegisterMap& registers) {
   (void)causes_header(registers);
+  (void)map_package(registers);
+  (void)map_header(registers);
   const design::Elaborated e = elaborate(d, registers);
-  (void)systemverilog_package(e);
+  (void)cfg_package(e);
   (void)cpp_header(e);
   (void)values_text(e);
   (void)register_page(e);
@@ -184,15 +186,6 @@ Ending use_design(const fs::path& file) {
 
 Ending use_registers(const fs::path& file) {
   return config_ending([&] { make_all(shipped().design, design::read_registers(file.string())); });
-}
-
-Ending use_schedule(const fs::path& file) {
-  return config_ending([&] {
-    const design::RegisterMap& map = shipped().registers;
-    const design::Schedule s = design::read_schedule(file.string(), map);
-    (void)design::map_package(map, s);
-    (void)design::map_header(map, s);
-  });
 }
 
 Ending use_plant(const fs::path& file) {
@@ -375,7 +368,6 @@ const std::vector<Reader>& readers() {
   static const std::vector<Reader> all{
       {"design", "input.toml", as_it_is, use_design},
       {"registers", "input.toml", as_it_is, use_registers},
-      {"schedule", "input.toml", as_it_is, use_schedule},
       {"plant", "input.toml", as_it_is, use_plant},
       {"device", "input.toml", as_it_is, use_device},
       {"scene", "input.toml", as_it_is, use_scene},

@@ -9,7 +9,6 @@
 
 #include "../feltgate_core/core_stimulus.hpp"
 #include "catch.hpp"
-#include "feltgate/chain_tick.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
@@ -17,7 +16,8 @@
 #include "feltgate/while_armed.hpp"
 #include "mismatch.hpp"
 #include "sim/backends/backend.hpp"
-#include "sim/reference/real_chain.hpp"
+#include "sim/reference/chain.hpp"
+#include "twins.hpp"
 
 namespace {
 
@@ -94,7 +94,7 @@ class Beside {
   }
 
   test::CoreStimulus<D> stimulus_;
-  FeltgateCore<D> core_;
+  test::CoreOf<D> core_;
   std::unique_ptr<RealChain> chain_;
   Write waiting_;
   HostBeside host_;
@@ -172,52 +172,63 @@ TEST_CASE("a word and a value mean the same", "[chain]") {
   CHECK_THROWS_AS(make_real_chain("lever", "half"), std::invalid_argument);
 }
 
-// The laws of a design in a row, stage by stage: what the core's twin asks of them beside ticks.
-
 namespace {
 
-/// The lever with programs, too.
-struct Built : Lever {
-  static constexpr std::uint32_t scene_mask = Lever::scene_mask | 1u << Lever::S::law;
-};
-using Chain = ChainTick<Built, Fixed>;
 using A = Lever::A;
 using S = Lever::S;
 
-/// The largest ramp step: a ramp ends in a tick.
-constexpr std::int64_t at_once = fixed_of<Lever::P::ramp_step.key()>::max_raw();
+/// Of the lever with programs, too.
+class Direct {
+ public:
+  Chain<axis::Fixed> chain{"fixed", built()};
+  ChainIn in;
+
+  Direct() {
+    in.armed = true;
+    chain.set_word(A::ramp_step, ~0U >> 1);  // a ramp ends in a tick
+  }
+  std::int32_t tau_ref(int scene, int ticks) {
+    in.scene = scene;
+    for (int k = 0; k < ticks; ++k) chain.tick(in);
+    return chain.raw()->tau_ref;
+  }
+
+ private:
+  static DesignInfo built() {
+    DesignInfo design = design_info<Lever>();
+    design.data.constants["SCENE_MASK"] |= 1 << S::law;
+    return design;
+  }
+};
 
 }  // namespace
 
 TEST_CASE("chain: a reset takes the torque and its ramp away", "[chain]") {
-  Chain chain;
-  chain.words().set_raw(A::ramp_step, at_once);
-  chain.words().set_raw(A::setpoint_torque, 4242);
-  for (int k = 0; k < 3; ++k) chain.tick(0, 0, true, S::setpoint, Mode::closed_loop);
-  CHECK(chain.tau_ref().raw() == 4242);
-  CHECK_FALSE(chain.limit_ramp());
-  chain.reset();
-  CHECK(chain.tau_ref().raw() == 0);
-  chain.render(true, S::setpoint, 0);
-  CHECK(chain.limit_ramp());
+  Direct d;
+  d.chain.set_word(A::setpoint_torque, 4242);
+  CHECK(d.tau_ref(S::setpoint, 3) == 4242);
+  CHECK_FALSE(d.chain.ramping());
+  d.chain.reset();
+  CHECK(d.chain.tau_ref() == 0);
+  d.tau_ref(S::setpoint, 1);
+  CHECK(d.chain.ramping());
 }
 
 TEST_CASE("chain: a program's torque is rendered", "[chain]") {
-  Chain chain;
-  chain.words().set_raw(A::ramp_step, at_once);
-  chain.program(Chain::Torque::from_raw(-777));
-  for (int k = 0; k < 3; ++k) chain.render(true, S::law, 0);
-  CHECK(chain.tau_ref().raw() == -777);
+  Direct d;
+  d.chain.program(std::ldexp(-777.0, -Lever::f.torque.fraction));
+  CHECK(d.tau_ref(S::law, 3) == -777);
 }
 
 TEST_CASE("chain: the velocity's input is of the travel since m1 ticks ago", "[chain]") {
-  Chain chain;
-  const auto one = VelocityLaw<Built, Fixed>::raw(1, nullptr);
-  REQUIRE(one.raw() > 0);
-  CHECK(chain.velocity_input(1) == one.raw());
-  CHECK(chain.velocity_input(-1) == -one.raw());
-  for (int k = 0; k < Built::m1; ++k) chain.estimate(5);
-  CHECK(chain.velocity_input(5) == 0);
-  CHECK(chain.velocity_input(6) == one.raw());
-  CHECK(chain.velocity_input(4) == -one.raw());
+  Direct d;
+  constexpr std::int64_t one = std::int64_t{1}
+                               << (Lever::f.velocity.fraction + Lever::velocity_shift);
+  CHECK(d.chain.velocity_input(1) == one);
+  CHECK(d.chain.velocity_input(-1) == -one);
+  d.in.travel = 5;
+  for (int k = 0; k < Lever::m1; ++k) d.chain.tick(d.in);
+  CHECK(d.chain.velocity_input(5) == 0);
+  CHECK(d.chain.velocity_input(6) == one);
+  CHECK(d.chain.velocity_input(4) == -one);
 }

@@ -68,7 +68,7 @@ std::vector<EncoderEvent> motion(Clock clocks) {
 TEST_CASE("the lock-step compares what a law tells, in its clock") {
   lie = GENERATE(Lie::none, Lie::lost, Lie::made_up, Lie::number, Lie::value, Lie::late);
   constexpr Clock clocks = 300'000;
-  const auto engine = std::make_unique<LockStepBackend<Liar, LeverLaw>>();
+  const auto engine = std::make_unique<LockStepBackend<Liar>>(design_info<LeverLaw>());
   engine->reset(3, {});
   for (const auto& [address, word] : telling_law()->load()) engine->write(address, word);
   const auto events = motion(clocks);

@@ -15,11 +15,12 @@
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
+#include "twins.hpp"
 
 namespace feltgate {
 namespace {
 
-using Rtl = RtlCore<Vfeltgate_core, Lever>;
+using Rtl = RtlCore<Vfeltgate_core>;
 constexpr Clock clocks = 400'000;
 constexpr std::uint64_t seed = 7;
 
@@ -51,8 +52,8 @@ struct Found {
 
 /// Clock by clock, with the writes in the clocks in which an engine issues them.
 Found clock_by_clock(const std::vector<EncoderEvent>& events) {
-  const auto rtl = std::make_unique<Rtl>();
-  const auto twin = std::make_unique<FeltgateCore<Lever>>();
+  const auto rtl = std::make_unique<Rtl>(design_of<Lever>());
+  const auto twin = std::make_unique<test::CoreOf<Lever>>();
   rtl->power_up(seed, {});
   CoreIn in;
   Found found;
@@ -83,7 +84,7 @@ TEST_CASE("stretches of any length see the mismatches that a comparison clock by
   REQUIRE(expected.mismatches == 0);
 #endif
   for (const Clock step : {Clock{25}, Clock{999}, Clock{50'000}}) {
-    const auto engine = std::make_unique<LockStepBackend<Vfeltgate_core, Lever>>();
+    const auto engine = std::make_unique<LockStepBackend<Vfeltgate_core>>(design_info<Lever>());
     engine->reset(seed, {});
     for (const auto& [address, word] : host_writes()) engine->write(address, word);
     std::size_t snapshots = 0, sent = 0;

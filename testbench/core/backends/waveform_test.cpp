@@ -21,11 +21,6 @@ namespace {
 
 using namespace feltgate;
 
-/// A design of another clock; its half period of 10416.67 ps is no whole number.
-struct At48MHz : Lever {
-  static constexpr std::int64_t clock_hz = 48'000'000;
-};
-
 struct Change {
   std::uint64_t time;
   std::string value;
@@ -120,7 +115,9 @@ TEST_CASE("a window of clocks, some of them before the first") {
 TEST_CASE("the time axis is that of the design's clock") {
   const std::string path = new_file("waveform_test.fst");
   {
-    RtlCore<Vcore_lever, At48MHz> core;
+    axis::Design design = design_of<Lever>();
+    design.constants["CLOCK_HZ"] = 48'000'000;
+    RtlCore<Vcore_lever> core(design);
     core.trace(path, 0, -1);
     core.power_up(1, {});
     for (int k = 0; k < 1000; ++k) core.clock({});

@@ -15,6 +15,7 @@
 #include "feltgate/generated/paper.hpp"
 #include "random.hpp"
 #include "sim/backends/make_device.hpp"
+#include "twins.hpp"
 
 using namespace feltgate;
 using feltgate::test::Random;
@@ -48,8 +49,8 @@ void set_up(Device& d) {
 
 template <class D>
 void check_against_the_core() {
-  TwinDevice<D> d;
-  FeltgateCore<D> core;
+  TwinDevice d{design_info<D>()};
+  test::CoreOf<D> core;
   set_up(d);
   Random random(7);
   EncoderPins pins;
@@ -90,7 +91,7 @@ TEST_CASE("every clock of a device is the core's") {
 }
 
 TEST_CASE("what an armed core drops is refused or waits, and arming for it") {
-  TwinDevice<Lever> d;
+  TwinDevice d{design_info<Lever>()};
   const auto at = [&](int ticks) {
     for (int k = 0; k < ticks; ++k) d.tick({});
   };
@@ -113,7 +114,7 @@ TEST_CASE("what an armed core drops is refused or waits, and arming for it") {
 }
 
 TEST_CASE("a tick at a time is clock by clock") {
-  TwinDevice<Lever> ticks, clocks;
+  TwinDevice ticks{design_info<Lever>()}, clocks{design_info<Lever>()};
   set_up(ticks);
   set_up(clocks);
   Random random(11);
@@ -147,7 +148,7 @@ TEST_CASE("a lever that is moved by angles meets the wall") {
 }
 
 TEST_CASE("arming knows nothing of edges") {
-  TwinDevice<Lever> d;
+  TwinDevice d{design_info<Lever>()};
   d.arm();  // before the first clock: high from the start would never arm
   for (int k = 0; k < 3; ++k) d.tick({});
   CHECK(d.armed());
@@ -194,11 +195,12 @@ TEST_CASE("parameters go by name, in their units") {
   CHECK(has(refusal([&] { d->select("wal"); }), "did you mean \"wall\"?"));
   CHECK(has(refusal([&] { d->tick_to(1.0); }), "move it in smaller steps"));
   CHECK(has(refusal([&] { d->run(10, {{11, {}}}); }), "after the end of the stretch"));
-  CHECK(has(refusal([] { make_device("levre"); }), "design \"levre\" is not built in"));
+  CHECK(has(refusal([] { make_device("levre"); }),
+            "design \"levre\" is unknown; did you mean \"lever\"?"));
 }
 
 TEST_CASE("every scene that a design builds can be chosen") {
-  TwinDevice<Lever> d;
+  TwinDevice d{design_info<Lever>()};
   unsigned chosen = 2;  // bit 1: the scene that the map leaves out
   for (const std::string& scene : d.design().scenes) {
     d.select(scene);

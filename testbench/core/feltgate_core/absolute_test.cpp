@@ -14,6 +14,7 @@
 #include "core_life.hpp"
 #include "figures_record.hpp"
 #include "sim/backends/absolute_sensor.hpp"
+#include "twins.hpp"
 
 using namespace feltgate::test;
 using feltgate::AbsoluteSensor;
@@ -31,12 +32,6 @@ static_assert(D::absolute_encoder != 0);
 constexpr std::int64_t kPeriod = D::absolute_period * std::int64_t{D::clocks_per_tick};
 constexpr std::int64_t kArm = 6 * kPeriod, kReady = 20 * kPeriod;
 constexpr double kClock_s = 1.0 / D::clock_hz;
-/// With a table the sensor has the error of testbench/core/CMakeLists.txt, half a
-/// degree, and what is left of it is rounding to a count more.
-const std::vector<double> kError_rad = D::absolute_table != 0
-                                           ? std::vector<double>{7.5e-3, 4.5e-3, -1.2e-3, 0.9e-3}
-                                           : std::vector<double>{};
-constexpr int kLeft_counts = D::absolute_table != 0 ? 1 : 0;
 
 /// A host that arms the set-point of 0 Nm, and a shaft with a sensor. At `at` the sensor breaks, at
 /// `mended` it is mended, and the host clears the faults and arms again.
@@ -47,10 +42,8 @@ struct Rig {
   bool reversed = false;
   std::int64_t host_at = 400;  ///< the host takes control, with the polarity
 
-  AbsoluteSensor sensor{feltgate::absolute_parameters<D>()};
+  AbsoluteSensor sensor{feltgate::test::absolute_parameters<D>()};
   CoreIn in;
-
-  Rig() { sensor.set_error(kError_rad); }
 
   CoreIn operator()(std::int64_t cycle, const CoreOut& out) {
     host(cycle);
@@ -144,7 +137,7 @@ TEST_CASE("absolute: a request waits for the first reading, whose angle is the p
     CHECK(seen.armed < 2 * kPeriod + 10 * kTick);
     CHECK(seen.last.armed);
     CHECK(seen.last.faults == 0);
-    CHECK(std::abs(seen.last.position - counts(rad)) <= kLeft_counts);
+    CHECK(seen.last.position == counts(rad));
     CHECK(seen.fastest_rad_s == 0);  // no motion brought it there
   }
 }
@@ -175,7 +168,7 @@ TEST_CASE("absolute: the position counts turns in both directions, and from its 
       // The newest reading is between one reading's time and a period more old.
       const double sign = reversed ? -1 : 1, now_rad = rad_s * static_cast<double>(end) * kClock_s;
       const double age_s = (now_rad - sign * seen.last.position * D::count_rad) / rad_s;
-      const double count_s = (1 + kLeft_counts) * D::count_rad / std::abs(rad_s);
+      const double count_s = D::count_rad / std::abs(rad_s);
       INFO(rad_s << " rad/s, age " << age_s);
       CHECK(age_s > 3e-6 - count_s);
       CHECK(age_s < kPeriod * kClock_s + 6e-6 + count_s);
@@ -195,24 +188,8 @@ TEST_CASE("absolute: the polarity stays as it was at the first reading") {
     rig.reversed = true;  // from clock 400 on
     if (!before) rig.host_at = 5 * kPeriod;
     const Seen seen = run(rig, 8 * kPeriod);
-    CHECK(std::abs(seen.last.position - (before ? -1 : 1) * counts(0.7)) <= 1 + kLeft_counts);
+    CHECK(std::abs(seen.last.position - (before ? -1 : 1) * counts(0.7)) <= 1);
   }
-}
-
-TEST_CASE("absolute: with a table the position is within a count of the shaft, all over a turn") {
-  std::int32_t most = 0, off = 0;
-  AbsoluteSensor sensor{feltgate::absolute_parameters<D>()};
-  sensor.set_error(kError_rad);
-  for (int k = 0; k < 23; ++k) {
-    Rig rig;
-    rig.start_rad = 0.28 * k - 3.1;
-    const Seen seen = run(rig, kReady);
-    CHECK(seen.last.armed);
-    most = std::max(most, std::abs(seen.last.position - counts(rig.start_rad)));
-    off = std::max(off, std::abs(counts(sensor.shown_rad(rig.start_rad)) - counts(rig.start_rad)));
-  }
-  CHECK(most <= kLeft_counts);
-  if (D::absolute_table != 0) CHECK(off > 20);
 }
 
 TEST_CASE("absolute: each defect closes the gates within 2 ms and is named") {
@@ -252,7 +229,6 @@ TEST_CASE("absolute: a line at ground reads as the angle 0, near which it is a s
 }
 
 TEST_CASE("absolute: how long until the gates close, the longest of all moments") {
-  if (D::absolute_table != 0) return;  // a table changes the angle alone, no time
   std::string table = "| defect of the sensor | gates off, ms |\n|---|---|\n";
   for (const Defect defect : kDefects) {
     std::int64_t longest = 0;
@@ -291,7 +267,7 @@ TEST_CASE(
   seen = run(rig, rig.mended + 10 * kPeriod);
   CHECK(seen.armed > rig.mended + 6 * kPeriod);
   CHECK(seen.last.armed);
-  CHECK(std::abs(seen.last.position - counts(1.5)) <= kLeft_counts);
+  CHECK(seen.last.position == counts(1.5));
   CHECK(seen.fastest_rad_s == 0);
 }
 

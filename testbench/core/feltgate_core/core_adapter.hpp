@@ -8,11 +8,13 @@
 #include <cstdint>
 
 #include "Vfeltgate_core.h"
+#include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "lock_step.hpp"
 #include "ports.hpp"
 #include "random.hpp"
 #include "sim/backends/rtl_ports.hpp"
+#include "twins.hpp"
 
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever
@@ -26,11 +28,13 @@
 namespace feltgate::test {
 
 using Design = FELTGATE_DESIGN;
-using CoreTwin = FeltgateCore<Design>;
-constexpr bool kPrograms = scene_built<Design>(Map::S::law);
+using CoreTwin = test::CoreOf<Design>;
+constexpr bool kPrograms = test::scene_built<Design>(Map::S::law);
 
 struct CoreAdapter {
-  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { drive_inputs<Design>(rtl, in); }
+  static void drive(Vfeltgate_core& rtl, const CoreIn& in) {
+    drive_inputs(rtl, feltgate::test::port_bits<Design>(), in);
+  }
   static void at_edge(Vfeltgate_core& rtl) { rtl.stop_i = 0; }
   template <class Check>
   static void compare(Check& check, const Vfeltgate_core& rtl, const CoreOut& out) {
@@ -53,7 +57,7 @@ struct CoreAdapter {
     check("encoder_select_n", rtl.encoder_select_no, out.serial & 1u);
     check("encoder_clock", rtl.encoder_clock_o, (out.serial >> 1) & 1u);
     check("encoder_command", rtl.encoder_command_o, (out.serial >> 2) & 1u);
-    check("current", sign_extend<19>(rtl.current_o), out.current);
+    check("current", sign_extend<Design::f.current.width()>(rtl.current_o), out.current);
     check("current_clock", rtl.current_clock_o, out.current_clock);
     check("heartbeat", rtl.heartbeat_o, out.heartbeat);
     FELTGATE_COMPARE(check, rtl, out, gates_enable, scene, limits, faults, first_fault, armed,

@@ -21,6 +21,7 @@
 #include "random.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/sigma_delta.hpp"
+#include "twins.hpp"
 
 namespace feltgate::test {
 
@@ -344,7 +345,7 @@ class CoreStimulus {
         break;
       case 5:  // a heavy lever: the observer reaches its limits
         then(D::C::control, host);
-        then(D::A::inertia_gain, (1u << D::coefficient_bits) - 1);
+        then(D::A::inertia_gain, (1u << D::P::inertia_gain.width()) - 1);
         then(D::A::overspeed, 0x7fffffff);
         arm();
         then(kSetOff, 40);
@@ -466,11 +467,11 @@ class CoreStimulus {
   }
 
   static constexpr bool kKnob = D::phases == 3 && D::absolute_encoder != 0;
-  static constexpr bool kOutside = scene_built<D>(Map::S::law);
+  static constexpr bool kOutside = test::scene_built<D>(Map::S::law);
   std::uint32_t any_scene() { return random_.below(kOutside ? 11 : 10); }
 
   std::conditional_t<D::phases == 3, PhasesStimulus, CurrentStimulus> current_;
-  AbsoluteSensor sensor_{absolute_parameters<D>()};
+  AbsoluteSensor sensor_{test::absolute_parameters<D>()};
   std::int64_t counted_ = 0;  ///< of an absolute encoder
   Random breaks_{78};
   Random random_, outside_;

@@ -12,6 +12,7 @@
 #include "core_stimulus.hpp"
 #include "random.hpp"
 #include "sim/backends/rtl_model.hpp"
+#include "twins.hpp"
 
 using feltgate::CoreIn;
 using D = feltgate::test::Design;
@@ -38,7 +39,6 @@ constexpr Lives kLives = D::hall != 0                ? Lives{9, 3, 1'200'000}
                          : kLoop && D::phases == 3   ? Lives{17, 2, 2'000'000}
                          : kLoop                     ? Lives{0, 2, 2'000'000}
                          : !kEdges && D::phases == 3 ? Lives{4, 2, 1'500'000}
-                         : D::absolute_table != 0    ? Lives{13, 5, 1'000'000}
                          : !kEdges                   ? Lives{13, 3, 1'000'000}
                          : D::clocks_per_tick > 50   ? Lives{9, 4, 3'000'000}
                                                      : Lives{9, kPrograms ? 6 : 4, 1'500'000};
@@ -124,12 +124,12 @@ TEST_CASE("core: resets at random times, random state before them") {
 TEST_CASE("core: at power-up the gates are off, whatever the other registers hold") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const feltgate::RtlModel<Vfeltgate_core> rtl(seed);
-    REQUIRE(feltgate::read_outputs<D>(*rtl).gates == 0);
+    REQUIRE(feltgate::read_outputs(*rtl, feltgate::test::port_bits<D>()).gates == 0);
   }
 }
 
 TEST_CASE("core: sampled position to duty register in the clocks that the schedule says") {
-  if (!feltgate::scene_built<D>(D::S::spring_tension) || kLoop || !kEdges) return;
+  if (!feltgate::test::scene_built<D>(D::S::spring_tension) || kLoop || !kEdges) return;
   // The encoder makes one step against a stiff spring; wave clock 0 is the clock of the sample.
   Twin twin;
   CoreStimulus<D> host(1);
@@ -153,9 +153,9 @@ TEST_CASE("core: sampled position to duty register in the clocks that the schedu
                            1u << D::C::control_arm |
                            static_cast<std::uint32_t>(D::S::spring_tension) << D::C::control_scene);
   for (int k = 0; k < 500; ++k) twin.clock(in);
-  constexpr int sample = feltgate::Map::first_wave_clock + feltgate::Map::T::sample;
+  constexpr int sample = feltgate::axis::TickCounter::sample_clock;
   while (twin.clock_of_tick() != sample + 1) twin.clock(in);
-  // The step is decoded in this tick and sampled by the next wave.
+  // The step is decoded in this tick and sampled by the next tick.
   for (int step = 0; step < 40; ++step) {
     in.encoder.b = (step & 1) == 0 ? !in.encoder.a : in.encoder.a;
     if ((step & 1) == 1) in.encoder.a = !in.encoder.a, in.encoder.b = in.encoder.a;
@@ -168,5 +168,5 @@ TEST_CASE("core: sampled position to duty register in the clocks that the schedu
     twin.clock(in);
     ++clocks;
   }
-  CHECK(clocks == feltgate::Map::T::duty + 1 - feltgate::Map::T::sample);
+  CHECK(clocks == twin.duty_clock() - sample);
 }

@@ -19,6 +19,7 @@
 #include "core_life.hpp"
 #include "core_stimulus.hpp"
 #include "figures_record.hpp"
+#include "twins.hpp"
 
 using namespace feltgate::test;
 using namespace feltgate::plant;
@@ -32,7 +33,8 @@ using D = feltgate::test::Design;
 namespace {
 
 static_assert(D::phases == 3 && D::current_loop != 0);
-constexpr double kFullA = 2, kLsb = kFullA / (1 << 17), kNmA = 0.0585, kOhm = 2.9;
+constexpr double kFullA = 2, kNmA = 0.0585, kOhm = 2.9;
+const double kLsb = std::ldexp(1.0, -D::f.current.fraction);  // A
 constexpr double kClockS = 1.0 / D::clock_hz;
 constexpr int kPeriod = D::pwm_period;
 /// Armed after the calibration, whose two averages take 512 periods.
@@ -58,7 +60,7 @@ struct Rig {
 
   Parameters p;
   ThreePhasePlant plant;
-  AbsoluteSensor sensor{feltgate::absolute_parameters<D>()};
+  AbsoluteSensor sensor{feltgate::test::absolute_parameters<D>()};
   std::array<double, 2> reads{1, 1};  ///< part of its current that a modulator sees
   std::array<SigmaDelta, 2> modulators{SigmaDelta{kFullA}, SigmaDelta{kFullA}};
   CoreIn in;

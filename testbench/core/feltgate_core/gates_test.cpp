@@ -3,13 +3,14 @@
 //
 // The gates at the pins of the whole core: a stop between the edges of the clock, a stop without a
 // clock, and the duty after arming again. The test samples the raw pins 20 times per clock; a
-// comparison from edge to edge cannot do this. Documentation: docs/blocks/supervisor.md
+// comparison from edge to edge cannot do this. Documentation: docs/blocks/safety.md
 #include "Vfeltgate_core.h"
 #include "catch.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "sim/backends/lock_step_core.hpp"
 #include "sim/backends/rtl_model.hpp"
 #include "sim/backends/rtl_ports.hpp"
+#include "twins.hpp"
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever
 #include "feltgate/generated/lever.hpp"
@@ -99,7 +100,7 @@ class Bridge {
   void drive() {
     const bool stop = rtl_->stop_i != 0;
     driven_ = in_;
-    feltgate::drive_inputs<D>(*rtl_, driven_);
+    feltgate::drive_inputs(*rtl_, feltgate::test::port_bits<D>(), driven_);
     rtl_->stop_i = stop;
   }
   void rise() {
@@ -109,14 +110,14 @@ class Bridge {
     in.stop = seen_;
     twin_.clock(in);
     seen_ = stop;
-    const feltgate::CoreOut rtl = feltgate::read_outputs<D>(*rtl_);
+    const feltgate::CoreOut rtl = feltgate::read_outputs(*rtl_, feltgate::test::port_bits<D>());
     if (!(rtl == twin_.out())) {
       FAIL("RTL and twin differ in " << feltgate::difference(rtl, twin_.out()));
     }
   }
 
   feltgate::RtlModel<Vfeltgate_core> rtl_;
-  feltgate::FeltgateCore<D> twin_;
+  feltgate::test::CoreOf<D> twin_;
   CoreIn in_, driven_;  ///< inputs wanted, and inputs at the pins since the clock fell
   int phase_ = 0;
   bool seen_ = false, held_ = false;

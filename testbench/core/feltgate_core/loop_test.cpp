@@ -24,7 +24,8 @@ using D = feltgate::test::Design;
 namespace {
 
 static_assert(D::current_loop != 0);
-constexpr double kFull = 32, kLsb = kFull / (1 << 17);
+constexpr double kFull = 32;                                  // A
+const double kLsb = std::ldexp(1.0, -D::f.current.fraction);  // A
 constexpr std::int64_t kArmed = 520'000, kSettled = kArmed + 60'000;
 constexpr std::int64_t kLate = kArmed - 15'000;  // after an early request
 constexpr std::int64_t kPart = kSettled - kArmed;

@@ -93,7 +93,7 @@ TEST_CASE("core: scenes see positions up to both ends of 18 bits, and the end be
     constexpr int counts_fraction = 8;
     const std::int64_t rest = (up ? end - 3 : -end - 1 + 3) * (std::int64_t{1} << counts_fraction);
     s.write(A::tension_rest, low(rest));
-    s.write(A::tension_stiffness, (1u << D::coefficient_bits) / 4);
+    s.write(A::tension_stiffness, (1u << D::P::tension_stiffness.width()) / 4);
     s.write(C::control, kHost & ~(15u << C::control_filter));
     s.move((up ? 1 : -1) * (std::int64_t{end} - 6), 1);
     s.arm(D::S::spring_tension);

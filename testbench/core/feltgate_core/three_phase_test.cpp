@@ -16,6 +16,7 @@
 #include "figures_record.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/backends/rtl_model.hpp"
+#include "twins.hpp"
 
 using namespace feltgate::test;
 using feltgate::AbsoluteSensor;
@@ -58,7 +59,7 @@ struct Rig {
   std::int64_t zero_at = -1;
   std::function<void(Rig&, std::int64_t)> more = [](Rig&, std::int64_t) {};  ///< of the host
 
-  AbsoluteSensor sensor{feltgate::absolute_parameters<D>()};
+  AbsoluteSensor sensor{feltgate::test::absolute_parameters<D>()};
   CoreIn in;
 
   static constexpr std::uint32_t kRest = kHost | 2u << C::control_mode;
@@ -256,28 +257,29 @@ TEST_CASE("three: a stop between the edges closes all six gates, and needs no cl
     Rig rig;
     rig.start_rad = 0.7;
     feltgate::RtlModel<Vfeltgate_core> rtl(3);
-    feltgate::drive_inputs<D>(*rtl, {});
+    feltgate::drive_inputs(*rtl, feltgate::test::port_bits<D>(), {});
     rtl.reset(4);
     CoreOut out;
     for (std::int64_t cycle = 0; cycle < kReady + later; ++cycle) {
       const CoreIn in = rig(cycle, out);
-      feltgate::drive_inputs<D>(*rtl, in);
+      feltgate::drive_inputs(*rtl, feltgate::test::port_bits<D>(), in);
       rtl.clock();
-      out = feltgate::read_outputs<D>(*rtl);
+      out = feltgate::read_outputs(*rtl, feltgate::test::port_bits<D>());
     }
     REQUIRE(out.armed);
     seen |= out.gates;
     rtl->stop_i = 1;
     rtl->eval();
-    CHECK(feltgate::read_outputs<D>(*rtl).gates == 0);
+    CHECK(feltgate::read_outputs(*rtl, feltgate::test::port_bits<D>()).gates == 0);
     rtl->stop_i = 0;
     rtl->eval();
-    CHECK(feltgate::read_outputs<D>(*rtl).gates == 0);  // latched
+    CHECK(feltgate::read_outputs(*rtl, feltgate::test::port_bits<D>()).gates == 0);  // latched
     for (int k = 0; k < 100; ++k) {
       rtl.clock();
-      CHECK(feltgate::read_outputs<D>(*rtl).gates == 0);
+      CHECK(feltgate::read_outputs(*rtl, feltgate::test::port_bits<D>()).gates == 0);
     }
-    CHECK(feltgate::read_outputs<D>(*rtl).faults == fault_bit(Fault::stop));
+    CHECK(feltgate::read_outputs(*rtl, feltgate::test::port_bits<D>()).faults ==
+          fault_bit(Fault::stop));
   }
   CHECK(seen == 63u);
 }

@@ -10,6 +10,7 @@
 #include "feltgate/generated/lever_law.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "skip_compare.hpp"
+#include "twins.hpp"
 
 namespace {
 
@@ -40,7 +41,7 @@ TEST_CASE("nor does stopping anywhere in a tick") {
 
 TEST_CASE("a stop of one clock is a fault in every clock of a tick, by clocks and by events") {
   for (int at = 0; at < Lever::clocks_per_tick; ++at) {
-    FeltgateCore<Lever> by_clock, by_event;
+    test::CoreOf<Lever> by_clock, by_event;
     CoreIn in;
     const auto both = [&](int clocks) {
       for (int k = 0; k < clocks; ++k) by_clock.clock(in);
@@ -73,7 +74,7 @@ constexpr int kTick = Lever::clocks_per_tick;
 
 template <bool ReadBack = true>
 struct Core {
-  FeltgateCore<Lever, ReadBack> core;
+  test::CoreOf<Lever, ReadBack> core;
   CoreIn in;
 
   void clocks(int n) {

@@ -12,6 +12,7 @@
 #include "feltgate/generated/paper.hpp"
 #include "random.hpp"
 #include "skip_compare.hpp"
+#include "twins.hpp"
 
 namespace feltgate::test {
 
@@ -161,8 +162,8 @@ struct Slow : Lever {
 /// From a core at the first clock of a tick: to clock c from event to event, with a halt at `halt`,
 /// there a write, and on from event to event. The same as clock by clock.
 template <class D>
-void write_amid(const FeltgateCore<D>& start, const CoreIn& held, int halt, int c, bool arm) {
-  FeltgateCore<D> by_clock = start, by_event = start;
+void write_amid(const test::CoreOf<D>& start, const CoreIn& held, int halt, int c, bool arm) {
+  test::CoreOf<D> by_clock = start, by_event = start;
   CoreIn in = held, strobe = held;
   in.reg_write = false;
   strobe.reg_write = true;
@@ -193,8 +194,7 @@ void write_amid(const FeltgateCore<D>& start, const CoreIn& held, int halt, int 
   REQUIRE(by_clock.gate_clocks() == by_event.gate_clocks());
   REQUIRE(clocks.value() == events.value());
   if (c % 5 == 0 && halt == 0) {
-    REQUIRE(test::heat_of<FeltgateCore<D>, D>(by_clock) ==
-            test::heat_of<FeltgateCore<D>, D>(by_event));
+    REQUIRE(test::heat_of<D>(by_clock) == test::heat_of<D>(by_event));
   }
 }
 
@@ -203,7 +203,7 @@ template <class D>
 std::set<int> writes_amid_trips(std::uint64_t seed, int wanted) {
   test::Random random(seed);
   TripStimulus<D> stimulus(seed);
-  FeltgateCore<D> core, start;
+  test::CoreOf<D> core, start;
   CoreIn held;
   std::set<int> met;
   std::int64_t clock = 0;
@@ -214,7 +214,7 @@ std::set<int> writes_amid_trips(std::uint64_t seed, int wanted) {
       held = stimulus(clock++);
       CoreIn in = held;
       in.reg_write = in.set_zero = false;
-      FeltgateCore<D> ahead = core;
+      test::CoreOf<D> ahead = core;
       for (int k = 0; k < D::clocks_per_tick; ++k) ahead.clock(in);
       const int cause = ahead.out().first_fault;
       if (core.out().first_fault == 0 && (cause != 0 || random.one_in(400))) {
@@ -248,7 +248,7 @@ TEST_CASE("a write in each clock of a tick that trips, from event to event") {
 
 TEST_CASE("a stop that is held, from the reset on and while the host asks to arm") {
   for (int address = 0; address < 0x400; address += 37) {
-    FeltgateCore<Lever> by_clock, by_event;
+    test::CoreOf<Lever> by_clock, by_event;
     CoreIn in;
     in.stop = true;
     in.reg_addr = static_cast<std::uint16_t>(address);
@@ -277,7 +277,7 @@ TEST_CASE("a stop that goes away while the panel asks to arm") {
   for (const bool held : {true, false}) {
     for (int at = 0; at < Lever::clocks_per_tick; ++at) {
       for (const int length : {1, 2, 3, 7}) {
-        FeltgateCore<Lever> by_clock, by_event;
+        test::CoreOf<Lever> by_clock, by_event;
         CoreIn in;
         const auto pass = [&](int clocks) {
           for (int k = 0; k < clocks; ++k) by_clock.clock(in);
@@ -301,13 +301,13 @@ TEST_CASE("a stop that goes away while the panel asks to arm") {
 }
 
 TEST_CASE("calm clocks close no gates, whatever the limit of the speed") {
-  FeltgateCore<Lever> core;
+  test::CoreOf<Lever> core;
   CoreIn in;
-  const auto to_next_tick = [](FeltgateCore<Lever>& c, const CoreIn& held) {
+  const auto to_next_tick = [](test::CoreOf<Lever>& c, const CoreIn& held) {
     do c.clock(held);
     while (c.clock_of_tick() != 0);
   };
-  const auto write = [&](FeltgateCore<Lever>& c, int address, std::uint32_t word) {
+  const auto write = [&](test::CoreOf<Lever>& c, int address, std::uint32_t word) {
     CoreIn strobe = in;
     strobe.reg_addr = static_cast<std::uint16_t>(address);
     strobe.reg_wdata = word;
@@ -334,12 +334,13 @@ TEST_CASE("calm clocks close no gates, whatever the limit of the speed") {
     for (const std::int64_t off : {-40, -1, 0, 1, 40}) {
       const std::int64_t size =
           core.out().velocity < 0 ? -core.out().velocity : core.out().velocity;
-      FeltgateCore<Lever> tried = core;
+      test::CoreOf<Lever> tried = core;
       write(tried, Lever::A::overspeed,
             static_cast<std::uint32_t>(size + off < 0 ? 0 : size + off));
       if (!tried.out().gates_enable) continue;
-      const bool said = tried.calm(in, 40);
-      for (int k = 0; k < 40; ++k) tried.clock(in);
+      const int until_duty = tried.duty_clock() - 1;
+      const bool said = tried.calm(in, until_duty);
+      for (int k = 0; k < until_duty; ++k) tried.clock(in);
       calm += said;
       trips += !tried.out().gates_enable;
       REQUIRE_FALSE((said && !tried.out().gates_enable));

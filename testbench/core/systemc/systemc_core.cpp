@@ -97,7 +97,7 @@ class Watch : public sc_core::sc_module {
 std::int32_t direct_count(std::int64_t clocks) {
   const plant::Parameters p = motor();
   plant::Plant plant(p, p.effects, plant::drive_of(design_info<Lever>()), hand());
-  FeltgateCore<Lever> core;
+  FeltgateCore core{design_of<Lever>()};
   CoreIn in;
   in.encoder = plant.encoder().pins();
   double on[4] = {};
@@ -184,10 +184,11 @@ class Beside : public sc_core::sc_module {
  private:
   void between() {
     const CoreOut& o = core_.out();
+    constexpr auto mask = static_cast<std::uint32_t>((1u << D::f.current.width()) - 1);
     const auto& shown = board.out;
     const unsigned gates =
         (shown.gate_a_hi_o.read() ? 1u : 0u) | (shown.gate_c_lo_o.read() ? 32u : 0u);
-    if ((shown.current_o.read() != (static_cast<std::uint32_t>(o.current) & 0x7ffff) ||
+    if ((shown.current_o.read() != (static_cast<std::uint32_t>(o.current) & mask) ||
          gates != (o.gates & 33u) || shown.faults_o.read() != o.faults ||
          shown.word_data_o.read() != o.word_data)) {
       ++mismatches;
@@ -199,14 +200,15 @@ class Beside : public sc_core::sc_module {
     bits_ = bits_ * 6364136223846793005u + 1442695040888963407u;
     const auto random = static_cast<std::uint32_t>(bits_ >> 40);
     CoreIn in;
-    in.current_data = static_cast<std::uint8_t>(random & (controlled_currents<D> > 1 ? 3u : 0u));
+    in.current_data =
+        static_cast<std::uint8_t>(random & (D::current_loop != 0 && D::phases == 3 ? 3u : 0u));
     in.hall = static_cast<std::uint8_t>(clocks >> 9 & 7);
     in.arm = clocks > 530'000;  // once the offset of the current is known, after 512 periods
     if constexpr (D::absolute_encoder != 0) {
       sensor_.turn(0.9, 0.9, clocks, 1);
       in.encoder_data = sensor_.pin(clocks, o.serial);
     }
-    board.in.current_data_i.write(static_cast<systemc::CurrentDataOf<D>>(in.current_data));
+    board.in.current_data_i.write(in.current_data);
     board.in.hall_i.write(in.hall);
     board.in.encoder_data_i.write(in.encoder_data);
     board.in.arm_i.write(in.arm);
@@ -218,8 +220,8 @@ class Beside : public sc_core::sc_module {
   systemc::TwinModule<D> twin{"twin"};
 
  private:
-  FeltgateCore<D> core_;
-  AbsoluteSensor sensor_{absolute_parameters<GimbalCurrent>()};
+  FeltgateCore core_{design_of<D>()};
+  AbsoluteSensor sensor_{axis::Absolute::parameters(design_of<GimbalCurrent>())};
   std::uint64_t bits_ = 1;
 };
 

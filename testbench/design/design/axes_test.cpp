@@ -43,13 +43,10 @@ std::string refusal(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("without the keys a design rounds half up, with 17 bits and one multiplier", "[axes]") {
+TEST_CASE("without the key a design rounds half up", "[axes]") {
   const Elaborated e = shipped("lever");
   CHECK(e.design.rounding == Round::half_up);
-  const std::string package = systemverilog_package(e);
-  CHECK(says(package, "localparam int ROUNDING = 0;"));
-  CHECK(says(package, "localparam int COEFFICIENT_BITS = 17;"));
-  CHECK(says(package, "localparam int PARALLEL_MULTIPLIERS = 0;"));
+  CHECK(says(cfg_package(e), "localparam int ROUNDING = 0;"));
   CHECK(says(cpp_header(e), "Round rounding = Round::half_up;"));
 }
 
@@ -58,31 +55,10 @@ TEST_CASE("rounding reaches package and header", "[axes]") {
                                            {"floor", "1", "truncate"},
                                            {"convergent", "2", "convergent"}}) {
     const Elaborated e = good(with("rounding = \"" + std::string(word) + "\""));
-    CHECK(says(systemverilog_package(e), "localparam int ROUNDING = " + std::string(number) + ";"));
+    CHECK(says(cfg_package(e), "localparam int ROUNDING = " + std::string(number) + ";"));
     CHECK(says(cpp_header(e), "Round rounding = Round::" + std::string(name) + ";"));
   }
   CHECK(says(design_error(with("rounding = \"up\"")), "rounding"));
-}
-
-TEST_CASE("narrower coefficients keep their top bit and lose the lowest", "[axes]") {
-  const Elaborated e = good(with("coefficient_bits = 12"));
-  for (const Word& w : e.words) {
-    if (w.parameter.kind != "coefficient" || w.raw == 0) continue;
-    INFO(w.parameter.name);
-    CHECK(w.format.width() == 12);
-    CHECK(w.raw < 1 << 12);
-    CHECK(std::abs(w.quantised() - w.si) <= std::ldexp(0.5, -w.format.fraction));
-  }
-  CHECK(coefficient_format(5e-4, false, 12) == Format{0, -10, 22});
-  CHECK(says(design_error(with("coefficient_bits = 18")), "coefficient_bits"));
-  CHECK(says(design_error(with("coefficient_bits = 3")), "coefficient_bits"));
-}
-
-TEST_CASE("multipliers: shared or parallel, nothing else", "[axes]") {
-  const std::string lever = base_text();
-  CHECK(good(lever + "\n[fabric]\nmultipliers = \"parallel\"\n").design.parallel_multipliers);
-  CHECK_FALSE(good(lever + "\n[fabric]\nmultipliers = \"shared\"\n").design.parallel_multipliers);
-  CHECK(says(design_error(lever + "\n[fabric]\nmultipliers = \"none\"\n"), "multipliers"));
 }
 
 TEST_CASE("ticks from 10 kHz to 1 MHz with a quantised gain", "[axes]") {
@@ -113,7 +89,6 @@ TEST_CASE("what cannot work is refused in exploration too", "[axes]") {
              "ramp moves in steps"));
   CHECK(says(refusal(replaced(lever, "velocity = [1, 10, 21]", "velocity = [1, 17, 14]")),
              "no count reaches"));
-  CHECK(says(refusal(with("coefficient_bits = 4")), "does not fit its word"));
   CHECK(says(refusal(replaced(lever, "current = [1, 5, 16]", "current = [1, 5, 8]")),
              "as wide as the current"));
 }

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "design/generate.hpp"
+#include "design/generate_cfg.hpp"
 #include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {

@@ -258,30 +258,26 @@ TEST_CASE("three phases with two shunts: the words of the loop, and what it refu
                         "[current_loop]\nfull_scale_a = 2.0\nbandwidth_hz = 2000.0\n"
                         "inductance_h = 1e-3\novercurrent_a = 1.5\n[commutation]"),
                "current = [1, 3, 18]", "current = [1, 1, 20]");
-  const std::string loop = systemverilog_package(
-      elaborate(design_from_text(shunts, "shunts.toml"), shipped_registers()));
+  const std::string loop =
+      cfg_package(elaborate(design_from_text(shunts, "shunts.toml"), shipped_registers()));
   for (const char* line :
        {"int CURRENT_STROBE = 635;", "int CURRENT_PROPORTIONAL = 73410;", "int FEED_GAIN = 355;"}) {
     CHECK_THAT(loop, Catch::Contains(line));
   }
-  const Design sines =
-      design_from_text(replaced(shunts, "\"space_vectors\"", "\"sines\""), "sines.toml");
-  CHECK_THROWS_WITH(check_commutation(sines),
-                    Catch::Contains("a current loop makes space vectors"));
   CHECK_THAT(design_error(replaced(shunts, "frequency_hz = 50_000", "frequency_hz = 80_000")),
              Catch::Contains("a current is measured and controlled"));
 }
 
 TEST_CASE("Hall lines: a constant and a CRC of their own, and no absolute encoder beside them") {
-  const std::string sectioned = replaced(
-      replaced(file_text(design_path("lever")), "[pwm]\n", "[pwm]\nphases = 3\n"), "[pwm]\n",
-      "[commutation]\npole_pairs = 7\noffset_rad = 0.0\nmodulation = \"sines\"\nhall = 0\n[pwm]\n");
+  const std::string sectioned =
+      replaced(replaced(file_text(design_path("lever")), "[pwm]\n", "[pwm]\nphases = 3\n"),
+               "[pwm]\n", "[commutation]\npole_pairs = 7\noffset_rad = 0.0\nhall = 0\n[pwm]\n");
   const auto made = [](const std::string& text) {
     return elaborate(design_from_text(text, "hall.toml"), shipped_registers());
   };
   const std::string with = replaced(sectioned, "hall = 0", "hall = 1");
-  CHECK_THAT(systemverilog_package(made(with)), Catch::Contains("int HALL = 1;"));
-  CHECK_THAT(systemverilog_package(made(sectioned)), Catch::Contains("int HALL = 0;"));
+  CHECK_THAT(cfg_package(made(with)), Catch::Contains("int HALL = 1;"));
+  CHECK_THAT(cfg_package(made(sectioned)), Catch::Contains("int HALL = 0;"));
   CHECK(design_crc(made(sectioned)) == design_crc(made(replaced(sectioned, "hall = 0\n", ""))));
   CHECK(design_crc(made(with)) != design_crc(made(sectioned)));
   CHECK_THAT(design_error(replaced(sectioned, "hall = 0", "hall = 2")),
@@ -297,44 +293,3 @@ TEST_CASE("Hall lines: a constant and a CRC of their own, and no absolute encode
   CHECK_THAT(design_error(replaced(law, "pole_pairs = 11", "hall = 1\npole_pairs = 11")),
              Catch::Contains("a core with an engine has no pins of Hall lines"));
 }
-
-// The table against the error of an absolute encoder.
-
-namespace feltgate {
-
-constexpr double turn_rad = 2 * M_PI;
-
-TEST_CASE("encoder: the corrections are within half a count of the curve, and half an entry") {
-  for (const int bits : {12, 14, 19}) {
-    design::Design d;
-    d.absolute_bits = bits;
-    d.absolute_error_mrad = {120, -70, 10, 20, 0, 0, -4, 5};
-    const auto table = d.absolute_corrections();
-    const double counts_per_rad = std::ldexp(1 / turn_rad, bits);
-    // Of a straight line between two of 256 angles: n^2 (2 pi/256)^2 / 8 of each harmonic.
-    const double chord_rad =
-        std::pow(turn_rad / 256, 2) / 8 *
-        (std::hypot(0.12, 0.07) + 4 * std::hypot(0.01, 0.02) + 16 * std::hypot(0.004, 0.005));
-    const double bound = 0.5 + std::ldexp(0.5, bits - 20) + counts_per_rad * chord_rad + 1e-9;
-    double worst = 0;
-    for (std::int32_t k = -(1 << bits); k < 1 << bits; ++k) {
-      const double rad = k / counts_per_rad;
-      double error_mrad = 0;
-      for (std::size_t t = 0; t < d.absolute_error_mrad.size(); ++t) {
-        const double x = static_cast<double>(t / 2 + 1) * rad;
-        error_mrad += d.absolute_error_mrad[t] * (t % 2 == 0 ? std::cos(x) : std::sin(x));
-      }
-      worst = std::max(worst, std::abs(corrected(k, table.data(), bits) - k +
-                                       1e-3 * error_mrad * counts_per_rad));
-    }
-    INFO(bits << " bits: " << worst << " of " << bound);
-    CHECK(worst <= bound);
-    CHECK(worst > 0.9 * 0.5);
-    // Wraps, and keeps the order.
-    for (std::int32_t k = -(1 << bits); k < 1 << bits; ++k) {
-      if (corrected(k + 1, table.data(), bits) < corrected(k, table.data(), bits)) FAIL(k);
-    }
-  }
-}
-
-}  // namespace feltgate

@@ -10,7 +10,6 @@
 #include "design_fixture.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
-#include "feltgate/torque_control.hpp"
 
 using namespace feltgate;
 using namespace feltgate::design;
@@ -106,10 +105,6 @@ void check_intervals() {
   CHECK(fits(range(f.voltage) - emf, f.voltage_sum));
   CHECK(fits(dead + resistive - emf, f.voltage_sum));
 
-  using Law = TorqueControlLaw<D, Fixed>;
-  CHECK(fits(range(P::voltage_window), Format::from_key(Law::kVoltageKey)));
-  CHECK(fits(torque, Format::from_key(Law::kBorderKey)));
-  CHECK(fits(range(f.duty), Format::from_key(Law::kDutyKey)));
   const Interval applied = range(f.applied);
   CHECK(fits(range(f.voltage) + emf, f.applied));
   CHECK(fits_tightly(rounded(applied * range(P::duty_gain), 0), f.duty_sum));

@@ -179,12 +179,12 @@ TEST_CASE("the M/T estimator: its keys, its constants, and what knows the N-meth
 
   const Elaborated e = elaborate(
       design_from_text(with("window_s = 386e-6\ncycles = 16\n"), "a.toml"), shipped_registers());
-  const std::string package = systemverilog_package(e);
+  const std::string package = cfg_package(e);
   for (const char* line : {"int MT_COUNTS = 4096;", "int MT_WINDOW = 19300;",
                            "int MT_DOUBLINGS = 4;", "int M1 = 0;"}) {
     CHECK(contains(package, line));
   }
-  CHECK(contains(systemverilog_package(shipped("lever")), "int MT_COUNTS = 0;"));
+  CHECK(contains(cfg_package(shipped("lever")), "int MT_COUNTS = 0;"));
   const Elaborated cycle = elaborate(design_from_text(with(""), "a.toml"), shipped_registers());
   CHECK(design_crc(e) != design_crc(cycle));
   CHECK(
@@ -195,7 +195,7 @@ TEST_CASE("the M/T estimator: its keys, its constants, and what knows the N-meth
 
 TEST_CASE("a current loop: gains and strobe, and what it refuses", "[reader]") {
   const std::string good = file_text(design_path("lever_current"));
-  const std::string package = systemverilog_package(shipped("lever_current"));
+  const std::string package = cfg_package(shipped("lever_current"));
   for (const char* line :
        {"int CURRENT_LOOP = 1;", "int CURRENT_PROPORTIONAL = 11842;",
         "int CURRENT_INTEGRAL = 12762;", "int CURRENT_STROBE = 135;",
@@ -205,7 +205,7 @@ TEST_CASE("a current loop: gains and strobe, and what it refuses", "[reader]") {
   }
   for (const char* line :
        {"int CURRENT_LOOP = 0;", "int DRIVER_FAULT = 0;", "int HEARTBEAT = 0;"}) {
-    CHECK(contains(systemverilog_package(shipped("lever")), line));
+    CHECK(contains(cfg_package(shipped("lever")), line));
   }
   const auto refused = [&](const char* from, const char* to, const char* message) {
     const std::string error = design_error(replaced(good, from, to));
@@ -226,7 +226,7 @@ TEST_CASE("a current loop: gains and strobe, and what it refuses", "[reader]") {
 
 TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   const std::string good = file_text(design_path("lever_absolute"));
-  const std::string package = systemverilog_package(shipped("lever_absolute"));
+  const std::string package = cfg_package(shipped("lever_absolute"));
   for (const char* line :
        {"int ABSOLUTE_ENCODER = 1;", "int ABSOLUTE_HALF_CLOCKS = 5;",
         "int ABSOLUTE_GAP_CLOCKS = 20;", "int ABSOLUTE_PERIOD = 96;", "int INDEX_COUNTS = 0;"}) {
@@ -235,8 +235,8 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   CHECK(shipped("lever_absolute").design.count_rad() == 2 * 3.14159265358979323846 / 16384);
   // 613.6 and 100 rad/s in 96 us are 153.6 and 25.03 counts; 2 more for noise.
   CHECK(contains(package, "ABSOLUTE_JUMP_STEP = 156;"));
-  CHECK(contains(systemverilog_package(shipped("gimbal_motor")), "ABSOLUTE_JUMP_STEP = 28;"));
-  CHECK(contains(systemverilog_package(shipped("lever")), "int ABSOLUTE_ENCODER = 0;"));
+  CHECK(contains(cfg_package(shipped("gimbal_motor")), "ABSOLUTE_JUMP_STEP = 28;"));
+  CHECK(contains(cfg_package(shipped("lever")), "int ABSOLUTE_ENCODER = 0;"));
   const auto refused = [&](const char* from, const char* to, const char* message) {
     const std::string error = design_error(replaced(good, from, to));
     INFO(error);
@@ -254,46 +254,22 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   refused("[absolute_encoder]", "lines = 1024\n[absolute_encoder]", "\"lines\"");
   refused("[absolute_encoder]", "[axes]\ncount = 2\n[absolute_encoder]",
           "has no pins for its lines");
-  // A table: its corrections are in the package and in the CRC, and only where there is an error.
-  const auto with = [&](const std::string& terms) {
-    return replaced(good, "error_mrad = []", "error_mrad = [" + terms + "]");
-  };
-  const Elaborated table =
-      elaborate(design_from_text(with("8.0, 0.0"), "t.toml"), shipped_registers());
-  const std::string corrected = systemverilog_package(table);
-  CHECK(contains(corrected, "int ABSOLUTE_TABLE = 1;"));
-  CHECK(contains(corrected, "8'd0: absolute_correction = 16'd64201;"));   // -8 mrad
-  CHECK(contains(corrected, "8'd128: absolute_correction = 16'd1335;"));  // 8 mrad
-  CHECK(contains(package, "int ABSOLUTE_TABLE = 0;"));
-  CHECK_FALSE(contains(package, "8'd0: absolute_correction"));
-  // A slope of 0.4 makes the readings of a motion faster by 1/0.6: 256.003 counts, and 2.
-  CHECK(contains(
-      systemverilog_package(elaborate(design_from_text(with("0, 0, 0, 0, 0, 0, 0, 100"), "t.toml"),
-                                      shipped_registers())),
-      "ABSOLUTE_JUMP_STEP = 259;"));
-  CHECK(design_crc(table) != design_crc(shipped("lever_absolute")));
-  CHECK(contains(design_error(with("8.0")), "1 numbers are no cosines and sines"));
-  CHECK(contains(design_error(with("191, 0")), "error_mrad"));
-  CHECK(contains(design_error(with("140, 140")), "add up to 198 mrad"));
-  CHECK(contains(design_error(with("0, 0, 0, 0, 0, 0, 0, 130")), "a slope of 520 mrad"));
   const auto refused_alone = [&](const std::string& text, const char* message) {
     const Design d = design_from_text(text, "changed.toml");
     CHECK_THROWS_WITH(check_absolute_encoder(d), Catch::Contains(message));
   };
   refused_alone(replaced(replaced(good, "m1 = 384", "estimator = \"mt\""), "n = 0 ", "# n = 0"),
                 "M/T needs the clocks of edges");
-  std::string fine = replaced(replaced(good, "\"spi\"", "\"biss\""), "bits = 14", "bits = 21");
+  std::string fine = replaced(replaced(good, "\"spi\"", "\"ssi\""), "bits = 14", "bits = 21");
   fine = replaced(fine, "diagnosis", "# diagnosis");
   refused_alone(fine, "the velocity's window by 32767 counts");
-  refused_alone(replaced(fine, "error_mrad = []", "error_mrad = [1, 1]"), "too coarse for 21 bits");
 }
 
 TEST_CASE("three phases: the words of the commutation, and what they refuse", "[reader]") {
   const std::string good = file_text(design_path("gimbal_motor"));
   const Elaborated e = shipped("gimbal_motor");
-  const std::string package = systemverilog_package(e);
+  const std::string package = cfg_package(e);
   CHECK(contains(package, "int PHASES = 3;"));
-  CHECK(contains(package, "int MODULATION = 1;"));
   CHECK(e.word("commutation_gain").raw == 11 << 18);  // 11 turns of 2^32 in 2^14 counts
   CHECK(e.word("commutation_offset").raw == 0);
   // A whole period is 5 V over the root of 3; the highest leg leaves two dead times and two
@@ -302,7 +278,7 @@ TEST_CASE("three phases: the words of the commutation, and what they refuse", "[
   CHECK(e.word("duty_limit").raw == 930);
   // The four thirds of a leg's loss, of which 3/pi turn with the current.
   CHECK(e.word("dead_voltage").si == Approx(4.0 / 3 * 3 / 3.14159265 * 6.4 * 0.025));
-  const std::string two = systemverilog_package(shipped("lever"));
+  const std::string two = cfg_package(shipped("lever"));
   CHECK(contains(two, "int PHASES = 2;"));
   CHECK_FALSE(contains(two, "commutation_gain"));
   CHECK_THROWS_WITH(shipped("lever").word("commutation_gain"), Catch::Contains("is missing"));
@@ -312,7 +288,6 @@ TEST_CASE("three phases: the words of the commutation, and what they refuse", "[
   CHECK(changed("offset_rad = 0.0 ", "offset_rad = -1.5707963267948966 ")
             .word("commutation_offset")
             .raw == 3LL << 30);
-  CHECK(changed("\"space_vectors\"", "\"sines\"").word("duty_limit").raw == 803);
   CHECK(design_crc(changed("pole_pairs = 11", "pole_pairs = 7")) != design_crc(e));
   const auto refused = [&](const char* from, const char* to, const char* message) {
     const std::string error = design_error(replaced(good, from, to));
@@ -322,7 +297,6 @@ TEST_CASE("three phases: the words of the commutation, and what they refuse", "[
   refused("phases = 3", "phases = 4", "\"phases\"");
   refused("phases = 3", "", "only three phases are commutated");
   refused("pole_pairs = 11", "pole_pairs = 0", "\"pole_pairs\"");
-  refused("\"space_vectors\"", "\"trapezoids\"", "\"modulation\"");
   refused("\"sign_magnitude\"", "\"locked_antiphase\"", "three legs have one kind of pulses");
   refused("frequency_hz = 50_000", "frequency_hz = 625_000", "the commutation of one takes 87");
   const auto refused_alone = [&](const std::string& text, const char* message) {
@@ -382,6 +356,9 @@ TEST_CASE("the register map is read as strictly", "[reader]") {
        "\"slot\" is not an integer of its range; it must be from 0 to"},
       {"slot = 5\n", "slot = 5\nspeed = 1\n", "key \"speed\" is unknown"},
       {"unit = \"1/ohm\"\n", "", "key \"unit\" is missing"},
+      {"bits = 24\nsaturates = true\n", "", "key \"bits\" is missing"},
+      {"kind = \"limit\"\n", "kind = \"limit\"\nsaturates = true\n",
+       "key \"saturates\" is unknown"},
       {"scene = \"damper\"\nslot", "scene = \"dampr\"\nslot",
        "scene \"dampr\" has no bank; did you mean \"damper\"? list it under [[scene]]"},
       {"name = \"free\"", "name = \"Free\"",

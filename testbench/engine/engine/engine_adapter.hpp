@@ -17,7 +17,7 @@
 namespace feltgate::test {
 
 template <int Axes>
-using EngineTwin = law::Engine<Axes, 21>;
+using EngineTwin = law::Engine<Axes>;
 
 template <int Axes, class Rtl = Vengine>
 struct EngineAdapter {

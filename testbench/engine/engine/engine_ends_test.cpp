@@ -214,7 +214,7 @@ TEST_CASE("engine: ages have 16 bits, and a program is late after as many ticks"
 namespace {
 
 using Inputs = EngineInputs<1>;
-using Outputs = EngineOutputs<2, 21>;
+using Outputs = EngineOutputs<2>;
 
 Outputs::In watched(unsigned max_age) {
   Outputs::In in;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Wall and charge as laws beside the twins of their blocks, with the same coefficients, over every
+// Wall and charge as laws beside the twin of the block, with the same coefficients, over every
 // position. Torques are in the last bit of the torque format, 2^-16 Nm.
 #include <fmt/format.h>
 
@@ -12,10 +12,9 @@
 #include <map>
 #include "catch.hpp"
 
+#include "feltgate/axis/scene.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/largest.hpp"
-#include "feltgate/scene_charge.hpp"
-#include "feltgate/scene_wall.hpp"
 #include "law/compile.hpp"
 #include "law/engine/machine.hpp"
 #include "law/load.hpp"
@@ -69,28 +68,19 @@ class Running {
   std::vector<std::int32_t> words_;
 };
 
-/// The blocks' words.
-struct Words {
-  template <int Key>
-  using Num = Fixed::num<Key>;
-  using P = Lever::P;
-  using Offset = Num<Lever::f.scene_offset.key()>;
-  std::int64_t reference = 0, k = 0, b = 0, strength = 0, core = 0;
+/// The block.
+class Block {
+ public:
+  axis::Words<std::int64_t> words;
 
-  Offset wall_contact() const { return Offset::from_raw(reference); }
-  auto wall_stiffness() const { return Num<P::wall_stiffness.key()>::from_raw(k); }
-  auto wall_damping() const { return Num<P::wall_damping.key()>::from_raw(b); }
-  Offset attract_centre() const { return Offset::from_raw(reference); }
-  Offset repel_centre() const { return Offset::from_raw(reference); }
-  auto attract_strength() const { return Num<P::attract_strength.key()>::from_raw(strength); }
-  auto repel_strength() const { return Num<P::repel_strength.key()>::from_raw(strength); }
-  auto attract_core_slope() const { return Num<P::attract_core_slope.key()>::from_raw(k); }
-  auto repel_core_slope() const { return Num<P::repel_core_slope.key()>::from_raw(k); }
-  template <int Key>
-  auto get(int) const {
-    return Num<Key>::from_raw(core);
+  std::int64_t torque(int scene, std::int32_t position, std::int64_t velocity) const {
+    return law_.tick({}, words, true, scene, position, velocity, {}).torque;
   }
+
+ private:
+  axis::Scene<axis::Fixed> law_{axis::Design::of<Lever>()};
 };
+using P = Lever::P;
 
 /// x in steps of 2^-fraction, which it is a whole number of.
 std::int64_t exact(double x, int fraction) {
@@ -110,22 +100,20 @@ void show(const std::string& what) {
 }
 
 TEST_CASE("the wall as a law is within a last bit of the block, at every position") {
-  using Wall = SceneWallLaw<Lever, Fixed>;
   const double count = Target{}.count_rad();
   Running law("wall");
-  Words words;
+  Block wall;
   std::int64_t worst = 0, pushing = 0, different = 0, all = 0;
   for (const auto& [contact, stiffness, damping] :
        {std::array<double, 3>{0.5, 4, 0.005}, {-3, 40, 0.1}, {9.99, 0.1, 0}, {0, 7.7, 0.03}}) {
     law.set({{"contact", contact}, {"stiffness", stiffness}, {"damping", damping}});
-    words.reference = 256 * exact(law.value("contact") / count, 0);
-    words.k = exact(law.value("stiffness") * count, Words::P::wall_stiffness.fraction);
-    words.b = exact(law.value("damping"), Words::P::wall_damping.fraction);
+    wall.words.first = 256 * exact(law.value("contact") / count, 0);
+    wall.words.stiffness = exact(law.value("stiffness") * count, P::wall_stiffness.fraction);
+    wall.words.damping = exact(law.value("damping"), P::wall_damping.fraction);
     for (const double rad_s : {0.0, 3.7, -3.7, 200.0, -200.0}) {
       const auto raw = static_cast<std::int32_t>(std::ldexp(rad_s, Lever::f.velocity.fraction));
-      const auto velocity = Wall::Velocity::from_raw(raw);
       for (std::int32_t position = -end; position <= end; ++position) {
-        const std::int64_t block = in_torque_format(Wall::torque(words, position, velocity).raw());
+        const std::int64_t block = in_torque_format(wall.torque(Map::S::wall, position, raw));
         const std::int64_t apart = std::abs(law.torque(position, raw) - block);
         worst = larger(worst, apart);
         pushing += block < 0 && block > -torque_end ? 1 : 0;
@@ -143,7 +131,6 @@ TEST_CASE("the wall as a law is within a last bit of the block, at every positio
 /// Largest difference to the block where the distance is up to `reach` counts, and beyond, LSB.
 std::array<std::int64_t, 2> charges_apart(const std::string& name, double core_rad,
                                           std::int64_t reach) {
-  using Charge = SceneChargeLaw<Lever, Fixed>;
   const double count = Target{}.count_rad();
   Running law(name);
   std::array<std::int64_t, 2> worst{};
@@ -152,15 +139,16 @@ std::array<std::int64_t, 2> charges_apart(const std::string& name, double core_r
       law.set({{"centre", centre}, {"core", core_rad}, {"peak", peak}});
       const double own = law.value("peak"), core = core_rad / count;
       const std::int64_t middle = std::llround(law.value("centre") / count);
-      Words words;
-      words.reference = 256 * middle;
-      words.core = std::llround(core);
-      words.strength = std::llround(
-          std::ldexp(std::fabs(own) * core * core, Words::P::attract_strength.fraction));
-      words.k =
-          std::llround(std::ldexp(std::fabs(own) / core, Words::P::attract_core_slope.fraction));
+      Block charge;
+      charge.words.first = 256 * middle;
+      charge.words.core = std::llround(core);
+      charge.words.strength =
+          std::llround(std::ldexp(std::fabs(own) * core * core, P::attract_strength.fraction));
+      charge.words.slope =
+          std::llround(std::ldexp(std::fabs(own) / core, P::attract_core_slope.fraction));
+      const int scene = own > 0 ? Map::S::charge_attract : Map::S::charge_repel;
       for (std::int32_t position = -end; position <= end; ++position) {
-        const std::int64_t block = Charge::torque(words, own > 0, position).raw();
+        const std::int64_t block = charge.torque(scene, position, 0);
         const std::int64_t apart = std::abs(law.torque(position, 0) - block);
         std::int64_t& w = worst[std::abs(position - middle) <= reach ? 0 : 1];
         w = larger(w, apart);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""slang finds nothing in any design or board, and does find what it is there for. docs/testing.md
+"""slang finds nothing in any device or board, and does find what it is there for. docs/testing.md
 
 slang_test.py VENV: the folder into which scripts/build.sh has fetched pyslang.
 """
@@ -11,91 +11,81 @@ import sys
 import unittest
 from pathlib import Path
 
-from testing import ROOT, Scratch, ran
+from testing import BUILD, ROOT, Scratch, ran
+
+import rtl_sources
 
 RTL = ROOT / "rtl"
-BOARDS = ("de0_nano", "ulx3s", "tang_nano_9k")
-DESIGNS = sorted(path.parent.name for path in RTL.glob("generated/*/feltgate_pkg.sv"))
+TOPS = RTL / "tops"
+# The top of each device, and a design of it.
+DEVICES = {"lever": "paper", "lever_absolute": "lever_absolute", "lever_current": "lever_current",
+           "hall_motor": "hall_motor", "gimbal_motor": "gimbal_motor", "gimbal_current": "gimbal_current"}
 VENV = Path(sys.argv.pop(1))
 
 
-def core(name="feltgate_core"):
-    listed = (RTL / f"{name}.f").read_text(encoding="utf-8").splitlines()
-    return [RTL / line for line in listed if line and not line.startswith("//")]
+def sources(*tops):
+    """The files of these modules and of all that they contain, packages first."""
+    paths = rtl_sources.module_files(ROOT)
+    wanted, found = list(tops), set()
+    while wanted:
+        name = wanted.pop()
+        if name not in found:
+            found.add(name)
+            wanted += rtl_sources.instantiated((RTL / paths[name]).read_text(encoding="utf-8"), paths)
+    packages = [*rtl_sources.CORE_PACKAGES, *(f"generated/{name}.sv" for name in rtl_sources.PACKAGES.values())]
+    return [RTL / path for path in (*packages, *(paths[name] for name in paths if name in found))]
 
 
 def package(design):
-    return RTL / "generated" / design / "feltgate_pkg.sv"
+    return BUILD / "designs" / design / "cfg.sv"
 
 
-def lint(top, *files):
+def lint(top, *words):
     """What slang says, empty where it finds nothing."""
-    done = ran(VENV / "bin/python", "-B", ROOT / "scripts/slang_lint.py", "--top", top, *files)
+    words = ("-I", TOPS, *words)
+    done = ran(VENV / "bin/python", "-B", ROOT / "scripts/slang_lint.py", "--top", top, *words)
     return done.stdout + done.stderr if done.returncode else ""
+
+
+def device(name):
+    return f"-DFELTGATE_{name.upper()}"
 
 
 @unittest.skipUnless(
     (VENV / "bin/python").exists() or os.environ.get("CI"), "no pyslang; ./feltgate test fetches it"
 )
 class Slang(Scratch):
-    def test_every_design(self):
-        self.assertIn("lever", DESIGNS)
-        for design in DESIGNS:
-            with self.subTest(design):
-                self.assertEqual(lint("feltgate_core", package(design), *core()), "")
+    def test_every_device(self):
+        self.assertEqual({path.stem for path in TOPS.glob("*_top.sv")}, {f"{name}_top" for name in DEVICES})
+        for name, design in DEVICES.items():
+            with self.subTest(name):
+                self.assertEqual(lint(f"{name}_top", package(design), *sources(f"{name}_top")), "")
 
-    def test_the_core_with_its_link(self):
+    def test_every_device_with_its_link(self):
         pins = ROOT / "model/host/board/board_pins.sv"
-        for design in DESIGNS:
-            with self.subTest(design):
-                files = [package(design), *core("feltgate_linked"), pins]
-                self.assertEqual(lint("board_pins", *files), "")
+        for name, design in (*DEVICES.items(), ("lever", "pantograph_law")):
+            with self.subTest(name, design=design):
+                files = [package(design), *sources(f"{name}_top", "feltgate_linked"), pins]
+                self.assertEqual(lint("board_pins", device(name), *files), "")
 
-    def test_axes(self):
-        for design in ("lever", "lever_law"):
-            with self.subTest(design=design):
-                files = [package(design), *core("feltgate_axes")]
-                self.assertEqual(lint("feltgate_axes", *files), "")
-
-    def test_a_multiplier_for_each_block(self):
-        text = package("lever").read_text(encoding="utf-8")
-        self.assertIn("PARALLEL_MULTIPLIERS = 0;", text)
-        text = text.replace("PARALLEL_MULTIPLIERS = 0;", "PARALLEL_MULTIPLIERS = 1;")
-        parallel = self.put("feltgate_pkg.sv", text)
-        self.assertEqual(lint("feltgate_core", parallel, *core()), "")
+    def board(self, board, design, name="lever"):
+        files = [package(design), *sources(f"{name}_top", "feltgate_linked")]
+        files += sorted([*RTL.glob("boards/panel/*.sv"), *RTL.glob(f"boards/{board}/*.sv")])
+        return lint(board, device(name), *files, *sorted(ROOT.glob("testbench/boards/boards/stub/*PLL*.sv")))
 
     def test_every_board(self):
-        for board in BOARDS:
-            packages = [RTL / f"generated/feltgate_{name}_pkg.sv" for name in ("engine", "link")]
-            files = [*packages, *sorted(RTL.glob("link/*.sv"))]
-            files += sorted([*RTL.glob("boards/panel/*.sv"), *RTL.glob(f"boards/{board}/*.sv")])
-            files += sorted(ROOT.glob("testbench/boards/boards/stub/*PLL*.sv"))
-            with self.subTest(board):
-                text = package("lever").read_text(encoding="utf-8")
-                hz = "54000000" if board == "tang_nano_9k" else "50000000"
-                text = text.replace("CLOCK_HZ = 50000000;", f"CLOCK_HZ = {hz};")
-                changed = self.put("feltgate_pkg.sv", text)
-                self.assertEqual(lint(board, changed, *core(), *files), "")
+        for board in ("de0_nano", "ulx3s"):
+            for name, design in DEVICES.items():
+                with self.subTest(board, design=design):
+                    self.assertEqual(self.board(board, design, name), "")
 
-    def test_the_tang_nano_refuses_what_does_not_fit(self):
-        packages = [RTL / f"generated/feltgate_{name}_pkg.sv" for name in ("engine", "link")]
-        files = [*packages, *sorted(RTL.glob("link/*.sv")), ROOT / "testbench/boards/boards/stub/rPLL.sv"]
-        files += sorted([*RTL.glob("boards/panel/*.sv"), *RTL.glob("boards/tang_nano_9k/*.sv")])
-        for design in ("gimbal_motor", "lever_current"):
-            self.assertIn("do_not_fit_this_board", lint("tang_nano_9k", package(design), *core(), *files))
+    def test_the_tang_nano_wants_its_own_clock(self):
+        self.assertIn("the_clock_of_the_design", self.board("tang_nano_9k", "lever"))
 
     def test_bus_ports(self):
-        shared = RTL / "generated/feltgate_map_pkg.sv"
         for path in sorted(RTL.glob("bus/*.sv")):
             with self.subTest(path.stem):
-                self.assertEqual(lint(path.stem, shared, path), "")
-
-    def test_cells_of_the_ecp5(self):
-        cell = ROOT / "testbench/flow/synth/mult18x18d_model.sv"
-        files = [package("lever"), RTL / "core/wave/mult18_ecp5.sv", cell, *core()]
-        # The cell's third operand stays open, as its manual says.
-        options = ["-DFELTGATE_ECP5", "-Wno-unconnected-input-port"]
-        self.assertEqual(lint("feltgate_core", *options, *files), "")
+                self.assertEqual(lint(path.stem, RTL / "generated/map.sv", path), "")
 
 
 if __name__ == "__main__":

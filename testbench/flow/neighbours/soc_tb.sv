@@ -9,7 +9,7 @@ module soc_tb;
   timeunit 1ns;
   timeprecision 1ns;
   localparam logic [29:0] BASE = 30'h0c00_0000;  // 0x30000000 in words
-  logic clk = 1'b0, rst = 1'b1, cyc = 1'b0, we = 1'b0, ack, err, armed;
+  logic clk = 1'b0, rst = 1'b0, cyc = 1'b0, we = 1'b0, ack, err, armed;
   logic [29:0] adr = '0;
   logic [ 3:0] gates;
   logic [31:0] dat = '0, got;
@@ -42,13 +42,14 @@ module soc_tb;
   endtask
 
   initial begin
+    #1 rst = 1'b1;  // an asynchronous reset has an edge
     repeat (5) @(negedge clk);
     rst = 1'b0;
-    cycle(1'b1, BASE + feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT, 32'd6554, 1'b1);
+    cycle(1'b1, BASE + 30'(map::A_TORQUE_LIMIT), 32'd6554, 1'b1);
     repeat (120) @(negedge clk);
-    cycle(1'b0, BASE + feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT, 32'd6554, 1'b1);
+    cycle(1'b0, BASE + 30'(map::A_TORQUE_LIMIT), 32'd6554, 1'b1);
     cycle(1'b0, BASE + 30'h800, 32'd0, 1'b0);
-    cycle(1'b1, BASE + 30'(feltgate_map_pkg::A_CONTROL), 32'd3, 1'b1);
+    cycle(1'b1, BASE + 30'(map::A_CONTROL), 32'd3, 1'b1);
     repeat (120) @(negedge clk);
     if (armed !== 1'b1) wrong++;
     if (wrong == 0) $display("soc: passed");

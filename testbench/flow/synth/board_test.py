@@ -14,7 +14,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from testing import ROOT, Scratch, script
+from testing import BUILD, ROOT, Scratch, script
 import synth_board
 from synth_tools import feeds
 
@@ -40,15 +40,16 @@ for name in re.findall(r"write_json (\\S+)", script):
     module = {"cells": cells, "netnames": nets, "ports": {}}
     open(name, "w").write(json.dumps({"modules": {"ulx3s": module, "tang_nano_9k": module}}))
 """
-GENERATE = """#!/usr/bin/env python3
+GENERATE = f"""#!/usr/bin/env python3
 import pathlib, re, sys
-word = lambda name: pathlib.Path(sys.argv[sys.argv.index(name) + 1])
+DESIGNS = {str(BUILD / 'designs')!r}
+""" + r"""word = lambda name: pathlib.Path(sys.argv[sys.argv.index(name) + 1])
 hz = re.search(r"^clock_hz = ([0-9_]+)", word("--design").read_text(), re.M)[1].replace("_", "")
 name = word("--design").name.split("_54mhz")[0].removesuffix(".toml")
-package = pathlib.Path(sys.argv[1], f"rtl/generated/{name}/feltgate_pkg.sv").read_text()
+package = pathlib.Path(DESIGNS, name, "cfg.sv").read_text()
 word("--output").mkdir(parents=True, exist_ok=True)
 text = package.replace("CLOCK_HZ = 50000000;", f"CLOCK_HZ = {hz};")
-(word("--output") / "feltgate_pkg.sv").write_text(text)
+(word("--output") / "cfg.sv").write_text(text)
 """
 NEXTPNR = """#!/usr/bin/env python3
 import json, sys
@@ -95,8 +96,10 @@ class StandIns(Scratch):
 
     def test_the_fastest_seed_is_packed(self):
         done, written, there = self.run_board("--board", "ulx3s")
-        self.assertEqual(done.returncode, 1)  # slower than the budget
-        self.assertIn("fmax_mhz 80", done.stdout)
+        budget = json.loads((ROOT / "docs/verification/areas.json").read_text(encoding="utf-8"))
+        measured = "board ulx3s" in budget["figures"]["lever"]  # then this is slower than the budget
+        self.assertEqual(done.returncode, 1 if measured else 0)
+        self.assertEqual("fmax_mhz 80" in done.stdout, measured)
         self.assertIn("timing closes in all", done.stdout)
         self.assertIn("cleared without a clock: 4 of 4", done.stdout)
         self.assertEqual(written, "board_1.config")

@@ -3,13 +3,13 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The gates in the ECP5 netlists of pwm and pwm_three_phase: flip-flops whose outputs go to the pins and nowhere
 else, with one asynchronous clear between them, so that they fit into the I/O cells.
-docs/blocks/pwm.md, docs/blocks/pwm.md
+docs/blocks/pwm.md
 """
 
 import json
 import unittest
 
-from testing import Scratch, ran, text_of
+from testing import ROOT, Scratch, ran
 
 
 def gates(legs):
@@ -46,8 +46,8 @@ def findings(module, legs="ab"):
 
 class GateRegisters(Scratch):
     def test_they_fit_the_cells(self):
-        for name, legs in (("pwm", "ab"), ("pwm_three_phase", "abc")):
-            source = self.put(f"{name}.sv", text_of(f"rtl/core/actuation/{name}.sv"))
+        for folder, name, legs in (("core", "pwm", "ab"), ("options", "pwm_three_phase", "abc")):
+            source = ROOT / f"rtl/{folder}/{name}.sv"
             made = self.folder / f"{name}.json"
             script = f"read_verilog -sv {source}; synth_ecp5 -top {name} -json {made}"
             self.ended(ran("yosys", "-q", "-p", script))

@@ -24,6 +24,7 @@ BOARD_CLOCKS = ("clk_25mhz", "clk_27mhz")  # clk in pair.sv
 CLOCKS = ("clk_i", "rst_ni", *BOARD_CLOCKS)
 MODELS = ("mult18x18d_model.sv", "dp16kd_model.sv")
 GOWIN_MODELS = ("gowin_cells_model.sv",)
+HARNESS = Path("model/sim/backends/feltgate_core.sv")
 # The stub of a board's PLL; the family is that of Tools.write_simulation().
 BOARDS = {"ulx3s": ("EHXPLLL.sv", "ecp5", MODELS), "tang_nano_9k": ("rPLL.sv", "gowin", GOWIN_MODELS)}
 
@@ -80,7 +81,6 @@ def main():
     parser.add_argument("--block")
     parser.add_argument("--board", choices=BOARDS, help="instead of a block")
     parser.add_argument("--output", type=Path, required=True)
-    parser.add_argument("--registered", action="store_true", help="MULT18X18D with its registers")
     parser.add_argument("--parameter", action="append", default=[], help="of RTL and netlist")
     parser.add_argument("--defect", nargs=2, metavar=("FILE", "NAME"), help="of the netlist alone")
     options = parser.parse_args()
@@ -90,14 +90,16 @@ def main():
     output.mkdir(parents=True, exist_ok=True)
     try:
         tools = Tools(output)
-        target = synth_measure.Target(block, block, registered=options.registered)
         if options.board:
             sources = synth_board.sources(options.root, block, design, output)
             stub = options.root / "testbench/boards/boards/stub" / pll
             (output / pll).write_text(stub.read_text(encoding="utf-8"), encoding="utf-8")
         else:
             sources = synth_measure.copy_sources(options.root, design, output)
-        read = synth_measure.read_commands(sources, target)
+            if block == HARNESS.stem:  # the device of the design with a port for each pin and signal
+                (output / HARNESS.name).write_text((options.root / HARNESS).read_text(encoding="utf-8"), encoding="utf-8")
+                sources.append(HARNESS.name)
+        read = synth_measure.read_commands(sources)
         for model in models:
             (output / model).write_text(
                 (Path(__file__).parent / model).read_text(encoding="utf-8"), encoding="utf-8"

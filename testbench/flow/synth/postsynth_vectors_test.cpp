@@ -17,6 +17,7 @@
 #include "feltgate/generated/lever.hpp"
 #include "mismatch.hpp"
 #include "pair_ports.hpp"
+#include "twins.hpp"
 
 namespace {
 
@@ -53,7 +54,7 @@ void set_inputs(Vpair& pair, const CoreIn& in) {
 }
 
 /// The first output of the netlist that is not the twin's, or "".
-std::string difference(const Vpair& pair, const feltgate::FeltgateCore<D>& twin, const CoreIn& in) {
+std::string difference(const Vpair& pair, const feltgate::test::CoreOf<D>& twin, const CoreIn& in) {
   const CoreOut& out = twin.out();
   std::string found;
   const auto same = [&](const char* name, std::int64_t expected) {
@@ -108,7 +109,7 @@ TEST_CASE("post-synthesis: the netlist does on the core's vectors what the twin 
   std::set<int> scenes;
   for (const std::uint64_t seed : {9u, 21u}) {
     const auto pair = std::make_unique<Vpair>();
-    feltgate::FeltgateCore<D> twin;
+    feltgate::test::CoreOf<D> twin;
     feltgate::test::CoreStimulus<D> stimulus(seed);
     twin.reset();
     pair->rst_ni = 1;

@@ -16,8 +16,8 @@ TOOLS = {"yosys": "yosys 0.70", "nextpnr": "nextpnr 0.11"}
 
 class Budget(Scratch):
     def grown(self, **changes):
-        budget = {"measured": TOOLS, "figures": {"lever": {"dob": ROW}}}
-        return synth_budget.compare(budget, {"lever": {"dob": ROW | changes}}, TOOLS)
+        budget = {"measured": TOOLS, "figures": {"lever": {"observer": ROW}}}
+        return synth_budget.compare(budget, {"lever": {"observer": ROW | changes}}, TOOLS)
 
     def test_same_figures_pass(self):
         self.assertEqual(self.grown(), [])
@@ -36,18 +36,18 @@ class Budget(Scratch):
 
     def test_written_and_read_again(self):
         path = self.folder / "areas.json"
-        measured = {"lever": {"core without read-back, inferred": ROW}}
+        measured = {"lever": {"core without read-back": ROW}}
         merged = synth_budget.merge(synth_budget.read(path), measured, TOOLS)
         synth_budget.write(path, merged)
         self.assertEqual(synth_budget.read(path), merged)
         # A later run of another row keeps this one.
-        again = synth_budget.merge(synth_budget.read(path), {"lever": {"dob": ROW}}, TOOLS)
-        self.assertEqual(set(again["figures"]["lever"]), {"dob", *measured["lever"]})
+        again = synth_budget.merge(synth_budget.read(path), {"lever": {"observer": ROW}}, TOOLS)
+        self.assertEqual(set(again["figures"]["lever"]), {"observer", *measured["lever"]})
 
 
 class Wrapper(unittest.TestCase):
     def test_every_open_port_is_a_port_of_the_core(self):
-        core = (ROOT / "rtl/core/feltgate_core.sv").read_text(encoding="utf-8")
+        core = (ROOT / "rtl/tops/lever_top.sv").read_text(encoding="utf-8")
         for port in synth_measure.SNAPSHOT_PORTS:
             self.assertRegex(core, rf"\boutput logic [^;]*\b{port}\b")
 

@@ -73,7 +73,7 @@ class Verbs(BoardTest):
             self.assertEqual(self.value(port, "status.armed"), 1)
             self.host(port, "capture", "--trigger", "velocity>1", "--csv", "c.csv")
             self.assertEqual(len((self.folder / "c.csv").read_text().splitlines()), 1025)
-            self.host(port, "record", "position", "--for", "0.3", "--csv", "r.csv")
+            self.host(port, "record", "position", "--for", "2", "--csv", "r.csv")
             rows = (self.folder / "r.csv").read_text().splitlines()
             self.assertGreater(len({row.split(",")[1] for row in rows}), 50)
             self.host(port, "stop")

@@ -19,7 +19,7 @@ using D = PantographLaw;
 const double pen_count_rad = design_info<D>().count_rad;
 
 law::Image compiled_axes(const std::string& text) {
-  return law::compile_text(text, "test", design::law_target(design_of<D>())).image;
+  return law::compile_text(text, "test", design::law_target(elaborated<D>())).image;
 }
 
 /// A spring at each joint.
@@ -35,7 +35,7 @@ const law::Image& springs() {
 struct Pantograph {
   std::unique_ptr<BoardInProcess<D, 2>> wire = std::make_unique<BoardInProcess<D, 2>>();
   host::Link link{*wire};
-  host::Device device{link, host::read_board(link), design_of<D>()};
+  host::Device device{link, host::read_board(link), elaborated<D>()};
   host::LawEngine engine{device};
 
   const CoreOut& out(std::size_t n) const { return wire->board.out().axis[n]; }

@@ -13,6 +13,7 @@
 #include "host/capture.hpp"
 #include "host/host_device.hpp"
 #include "sim/traces/options.hpp"
+#include "twins.hpp"
 
 namespace {
 
@@ -218,7 +219,7 @@ TEST_CASE("host device: positions become edges that give the core the same posit
     host::PositionEncoder encoder(lever().design, positions);
     std::vector<EncoderEvent> events;
     while (const auto e = encoder.next()) events.push_back(*e);
-    TwinDevice<Lever> twin;
+    TwinDevice twin{design_info<Lever>()};
     twin.clock(encoder.initial());  // the first sample is the reference
     std::size_t given = 0, row = 0;
     Clock now = 1;

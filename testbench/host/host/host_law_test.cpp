@@ -134,7 +134,7 @@ TEST_CASE("host law: a load that is cut off at any point leaves nothing that arm
     CHECK(told([&] { b.engine.load(spring()); }) == "wire: cut");
     b.wire->left = -1;
     host::Link again(*b.wire);
-    host::Device device(again, host::read_board(again), design_of<LeverLaw>());
+    host::Device device(again, host::read_board(again), elaborated<LeverLaw>());
     device.set("self_test_pulse", 0);
     LawEngine engine(device);
     const bool old = over && engine.holds(damper());

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The torque must not jump, and no disarm may be lost, for every action of a host or a panel on an
-// armed core. The whole core, RTL against twin. Documentation: docs/blocks/torque_control.md
+// armed core. The whole core, RTL against twin. Documentation: docs/blocks/ramp.md
 #include <algorithm>
 
 #include "core_script.hpp"
@@ -49,7 +49,7 @@ void check_ramped(Script& s, std::int64_t before, std::int64_t least) {
 }
 
 std::int64_t highest(const ParameterInfo& p) {
-  return (std::int64_t{1} << (p.format.width() - p.format.sign)) - 1;
+  return (std::int64_t{1} << (p.field.width() - p.field.sign)) - 1;
 }
 
 }  // namespace
@@ -401,10 +401,11 @@ TEST_CASE("limits: the same words written to an armed core") {
 TEST_CASE("limits: a negative limit of the supervisor takes the torque away") {
   for (const std::int64_t word : {-1, INT32_MIN}) {
     INFO("word " << word);
-    {  // every speed is too fast, armed or not
+    {  // it acts as 0: every motion is too fast
       Script s;
       under_load(A::setpoint_torque, 0, s, S::spring_tension, 0);
       s.write(A::overspeed, word).ticks(1);
+      s.move(1, 400).ticks(2);
       REQUIRE_FALSE(s.out().gates_enable);
       REQUIRE(s.out().first_fault == static_cast<int>(Fault::speed));
       s.play();
@@ -429,6 +430,7 @@ TEST_CASE("limits: a negative limit of the supervisor takes the torque away") {
       // After power-up the sum is half the design's budget, and it grows.
       s.write(A::i2t_budget, D::i2t_start + 1'000'000);
       while (s.out().gates_enable && ticks[negative] < 5'000) s.ticks(1), ++ticks[negative];
+      CAPTURE(ticks[0], ticks[1], s.out().current_ref, D::i2t_start);
       REQUIRE(s.out().first_fault == static_cast<int>(Fault::i2t));
       s.play();
     }

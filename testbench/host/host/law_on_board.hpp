@@ -26,6 +26,7 @@
 #include "host/law_engine.hpp"
 #include "host/transport.hpp"
 #include "law/compile.hpp"
+#include "twins.hpp"
 
 namespace feltgate::test {
 
@@ -71,8 +72,8 @@ class BoardInProcess : public host::Transport {
     run(std::int64_t{4} * D::clocks_per_tick);
   }
 
-  LinkedCore<D, N> board{LinkedOptions{3'000'000, true, 0}};
-  typename LinkedCore<D, N>::In in;
+  test::LinkedOf<D, N> board{LinkedOptions{3'000'000, true, 0}};
+  typename test::LinkedOf<D, N>::In in;
   std::int64_t now = 0;    ///< clocks since power-up
   std::int64_t left = -1;  ///< bytes until the wire is cut; -1: not cut
   double lost = 0;         ///< share of bytes to the board that are lost
@@ -88,14 +89,14 @@ class BoardInProcess : public host::Transport {
 using host::LawEngine;
 
 template <class D>
-const design::Elaborated& design_of() {
+const design::Elaborated& elaborated() {
   static const host::KnownDesign known = host::read_known_design(
       FELTGATE_ROOT, std::string(FELTGATE_ROOT "/rtl/designs/") + D::name + ".toml");
   return known.design;
 }
 
 inline law::Image compiled(const std::string& text, const std::string& name = "test") {
-  return law::compile_text(text, name, design::law_target(design_of<LeverLaw>())).image;
+  return law::compile_text(text, name, design::law_target(elaborated<LeverLaw>())).image;
 }
 
 inline const law::Image& spring() {
@@ -120,7 +121,7 @@ template <class D>
 struct OnWire {
   std::unique_ptr<BoardInProcess<D>> wire = std::make_unique<BoardInProcess<D>>();
   host::Link link{*wire};
-  host::Device device{link, host::read_board(link), design_of<D>()};
+  host::Device device{link, host::read_board(link), elaborated<D>()};
 };
 struct OnBoard : OnWire<LeverLaw> {
   LawEngine engine{device};

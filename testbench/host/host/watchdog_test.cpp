@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A design that requires the watchdog arms only after a kick. The whole core, RTL against twin.
-// Documentation: docs/blocks/supervisor.md
+// Documentation: docs/blocks/safety.md
 #include "core_script.hpp"
 
 using namespace feltgate;

@@ -15,6 +15,7 @@
 #include "law/load.hpp"
 #include "lock_step.hpp"
 #include "sim/backends/rtl_ports.hpp"
+#include "twins.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -22,7 +23,7 @@ using namespace feltgate::test;
 namespace {
 
 using Design = LeverLaw;
-using Twin = FeltgateAxes<Design, 1, false, true>;
+using Twin = test::AxesOf<Design, 1, false, true>;
 constexpr int kTick = Design::clocks_per_tick;
 constexpr std::int64_t kCountClocks = 50 * kTick;
 

@@ -59,10 +59,9 @@ struct Session {
 
   void note(const CoreOut& core) {
     if (!core.word_valid) return;
-    if (core.word_slot == LinkMap::slots[0]) number = 0;
-    if (number >= LinkMap::snapshot_words) return;
-    tick[static_cast<std::size_t>(number)] = core.word_data;
-    if (++number == LinkMap::snapshot_words) seen->ticks[tick[N::tick]] = tick;
+    const std::size_t number = linked::number_of(core.word_slot);
+    tick[number] = core.word_data;
+    if (number == N::status) seen->ticks[tick[N::tick]] = tick;
   }
 
   void ask() {

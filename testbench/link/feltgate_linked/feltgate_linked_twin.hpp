@@ -25,8 +25,9 @@
 #include "law/compile.hpp"
 #include "law/load.hpp"
 #endif
-#if defined(AXES)
 #include "sim/backends/rtl_axes_ports.hpp"
+#include "twins.hpp"
+#if defined(AXES)
 #if AXES == 2
 #include "feltgate/generated/pantograph_law.hpp"
 #else
@@ -77,11 +78,11 @@ constexpr int kAxisCount = 1;
 constexpr int kTick = D::clocks_per_tick;
 constexpr std::uint32_t kStride = axes_stride;
 
-class FeltgateLinked : public LinkedCore<D, kAxisCount> {
+class FeltgateLinked : public test::LinkedOf<D, kAxisCount> {
  public:
-  using In = typename LinkedCore<D, kAxisCount>::In;
-  using Out = typename LinkedCore<D, kAxisCount>::Out;
-  FeltgateLinked() : LinkedCore<D, kAxisCount>(LinkedOptions{BAUD, false, 0}) {}
+  using In = typename test::LinkedOf<D, kAxisCount>::In;
+  using Out = typename test::LinkedOf<D, kAxisCount>::Out;
+  FeltgateLinked() : test::LinkedOf<D, kAxisCount>(LinkedOptions{BAUD, false, 0}) {}
 };
 using Twin = FeltgateLinked;
 using In = Twin::In;
@@ -125,11 +126,14 @@ struct LinkedAdapter {
   }
 #else
   static void drive(Vfeltgate_linked& rtl, const In& in) {
-    rtl.enc_a_i = in.encoder.a;
-    rtl.enc_b_i = in.encoder.b;
-    rtl.enc_z_i = in.encoder.z;
-    FELTGATE_DRIVE(rtl, in, encoder_data, current_data, driver_fault, hall, arm, stop, set_zero);
-    FELTGATE_DRIVE(rtl, in, clear_faults, scene, uart_rx, inputs);
+    set_enc_a_i(rtl, in.encoder.a, 0);
+    set_enc_b_i(rtl, in.encoder.b, 0);
+    set_enc_z_i(rtl, in.encoder.z, 0);
+    set_encoder_data_i(rtl, in.encoder_data, 0);
+    set_hall_i(rtl, in.hall, 0);
+    set_current_data_i(rtl, in.current_data, 0);
+    set_driver_fault_i(rtl, in.driver_fault, 0);
+    FELTGATE_DRIVE(rtl, in, arm, stop, set_zero, clear_faults, scene, uart_rx, inputs);
   }
   template <class Check>
   static void compare(Check& check, const Vfeltgate_linked& rtl, const Out& out) {
@@ -138,13 +142,12 @@ struct LinkedAdapter {
     check("gate_a_lo", rtl.gate_a_lo_o, (out.core.gates >> 1) & 1u);
     check("gate_b_hi", rtl.gate_b_hi_o, (out.core.gates >> 2) & 1u);
     check("gate_b_lo", rtl.gate_b_lo_o, (out.core.gates >> 3) & 1u);
-    check("gate_c_hi", rtl.gate_c_hi_o, (out.core.gates >> 4) & 1u);
-    check("gate_c_lo", rtl.gate_c_lo_o, (out.core.gates >> 5) & 1u);
-    check("encoder_select_n", rtl.encoder_select_no, out.core.serial & 1u);
-    check("encoder_clock", rtl.encoder_clock_o, (out.core.serial >> 1) & 1u);
-    check("encoder_command", rtl.encoder_command_o, (out.core.serial >> 2) & 1u);
+    check("gate_c_hi", get_gate_c_hi_o(rtl, 0), (out.core.gates >> 4) & 1u);
+    check("gate_c_lo", get_gate_c_lo_o(rtl, 0), (out.core.gates >> 5) & 1u);
+    check("serial", serial_lines(rtl, feltgate::test::port_bits<D>()), out.core.serial);
+    check("current_clock", get_current_clock_o(rtl, 0), out.core.current_clock);
+    check("heartbeat", get_heartbeat_o(rtl, 0), out.core.heartbeat);
     check("position", static_cast<std::int32_t>(rtl.position_o), out.core.position);
-    FELTGATE_COMPARE(check, rtl, out.core, current_clock, heartbeat);
     FELTGATE_COMPARE(check, rtl, out.core, limits, faults, first_fault, scene, armed, gates_enable,
                      snapshot_valid);
   }

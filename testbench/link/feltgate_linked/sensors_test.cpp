@@ -14,6 +14,7 @@
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/parameters.hpp"
 #include "sim/plant/sigma_delta.hpp"
+#include "twins.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -47,7 +48,7 @@ struct Watch {
   const char* operator()(const LinkedIn&, const Vfeltgate_linked&, const Twin& twin, bool) {
     const CoreOut& out = twin.out().core;
     if (out.gates_enable) seen->enabled.at(cycle);
-    seen->current = std::ldexp(out.current, -17);
+    seen->current = std::ldexp(out.current, 1 - D::f.current.width());
     if (out.first_fault != 0) seen->fault.at(cycle), seen->first_fault = out.first_fault;
     if (out.current_clock && !clock_was) ++seen->modulator_clocks, seen->current_clock.at(cycle);
     if (out.heartbeat != beat_was) ++seen->beats, seen->beat.at(cycle);
@@ -176,7 +177,7 @@ constexpr double kRad = 0.9;
 struct Rig : Panel {
   std::array<double, 2> shown{};  ///< shares of full scale, of A and of B
   unsigned high = 0, low = 0;     ///< lines that stand, by the bits of current_data
-  AbsoluteSensor sensor{absolute_parameters<D>()};
+  AbsoluteSensor sensor{test::absolute_parameters<D>()};
   std::array<plant::SigmaDelta, 2> modulators{plant::SigmaDelta(), plant::SigmaDelta()};
   bool clock_was = false;
 
@@ -310,7 +311,7 @@ constexpr std::int64_t kEnd = 50 * kPeriod;
 struct Rig : Panel {
   Defect defect = Defect::none;
   std::int64_t at = kEvent;
-  AbsoluteSensor sensor{absolute_parameters<D>()};
+  AbsoluteSensor sensor{test::absolute_parameters<D>()};
 
   explicit Rig(Defect d = Defect::none, std::int64_t when = kEvent) : defect(d), at(when) {
     arm_at = kArm;

@@ -29,8 +29,11 @@ using Design = LeverLaw;
 #else
 using Design = Lever;
 #endif
-struct Twin : LinkPort<Design> {
-  Twin() : LinkPort<Design>({true, 2, 0x80a06U}) {}
+struct Twin : LinkPort<> {
+  Twin()
+      : LinkPort<>({true, 2, 0x80a06U, Design::design_crc,
+                    static_cast<std::uint32_t>(Design::clock_hz), Design::clocks_per_tick,
+                    Design::engine != 0}) {}
 };
 
 struct Adapter {
@@ -167,7 +170,7 @@ TEST_CASE("link_port: a word of the engine is taken 40 clocks after the port was
 
 // link_port: when its twin says that it waits, nothing changes while the inputs hold.
 
-using Port = LinkPort<Lever>;
+using Port = LinkPort<>;
 
 namespace {
 

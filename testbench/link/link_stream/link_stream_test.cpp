@@ -25,7 +25,7 @@ using A = LinkMap::A;
 
 struct Adapter {
   static void drive(Vlink_stream& rtl, const Twin::In& in) {
-    FELTGATE_DRIVE(rtl, in, word_valid, word_slot, word_data, addr, wdata, write, ready);
+    FELTGATE_DRIVE(rtl, in, word_valid, word_number, word_data, addr, wdata, write, ready);
   }
   template <class Check>
   static void compare(Check& check, const Vlink_stream& rtl, const Twin::Out& out) {
@@ -47,7 +47,7 @@ struct Stimulus {
     Twin::In in;
     const auto word = words.next(tick_word);
     in.word_valid = word.valid;
-    in.word_slot = word.slot;
+    in.word_number = word.number;
     in.word_data = word.data;
     in.ready = random.one_in(pace);
     if (at < 2) {  // after the reset that the bench begins with
@@ -140,7 +140,7 @@ std::vector<Frame> play(const Stimulus& stimulus, std::int64_t clocks) {
 TEST_CASE("link_stream: random ticks, registers, transmitters and resets") {
   std::vector<std::vector<std::uint8_t>> raw;
   Bench bench("link_stream", 1);
-  bench.run(Stimulus{Random(2), TickWords(3)}, scaled_clocks(600'000), {40'000}, Frames{&raw, {}});
+  bench.run(Stimulus{Random(2), TickWords(3)}, scaled_clocks(600'000), {}, Frames{&raw, {}});
   bench.run(Stimulus{Random(14), TickWords(15, false, true)}, scaled_clocks(400'000), {40'000});
   REQUIRE(raw.size() > 1000);
   std::set<unsigned> masks;
@@ -209,16 +209,15 @@ TEST_CASE("link_stream: a period beyond its bits is the longest, what is written
 TEST_CASE("link_stream: the longest period, and as many dropped frames", "[endurance]") {
   for (const std::uint32_t period : {0xffffffu, 1u}) {
     // A tick in every clock, more than the core has, so that the counters come round. The first
-    // frame never gets its other words, so all that follow are dropped.
+    // frame is never taken, so all that follow are dropped.
     const auto stimulus = [period](std::int64_t k) {
       Twin::In in;
       in.word_valid = true;
-      in.word_slot = LinkMap::slots[0];
+      in.word_number = LinkMap::N::status;
       in.word_data = static_cast<std::uint32_t>(k);
       in.addr = A::stream_dropped;
       in.write = k == Bench::kFirstReset;
       if (in.write) in.addr = A::stream_period, in.wdata = period;
-      in.ready = period != 1;
       return in;
     };
     std::uint32_t dropped = 0;
@@ -288,7 +287,7 @@ struct Host {
   void word(unsigned k) {
     LinkStream::In in;
     in.word_valid = true;
-    in.word_slot = static_cast<std::uint8_t>(LinkMap::slots[k]);
+    in.word_number = static_cast<std::uint8_t>(number_at(static_cast<int>(k)));
     in.word_data = 0x100 + k;
     twin.clock(in);
   }

@@ -45,9 +45,8 @@ RULES = (
     Rule(r"scripts/check_blocks\.py", "WHOLE"),
     Rule(r"scripts/(?:drums|bowed_string)_sound\.py|sed 's/.*slow\.(?:law|toml)", "ELSEWHERE"),
     # flow.instantiate; the first sets FILES, which is left out as of an environment.
-    Rule(r"rtl/generated/lever/feltgate_pkg\.sv \$\(sed|verilator|iverilog|yosys|for f in", "ELSEWHERE"),
-    # A defect of one's own: the lines that follow copy and build it.
-    Rule(r"file=testbench/wave/mult/defects\.diff|\{ printf|scripts/defects\.py copy", "ELSEWHERE"),
+    Rule(r"rtl/generated/lever/cfg\.sv \$\(sed|verilator|yosys|for f in", "ELSEWHERE"),
+    Rule(r"scripts/defects\.py copy", "ELSEWHERE"),
     Rule(r"(?:cp|mv|cd|git checkout|quartus_sh|openFPGALoader|sudo apt-get install)", "NAMED"),
     Rule(r"c\+\+ -std=c\+\+17 -Imodel/include docs/examples/tick_loop\.cpp", "WHOLE"),
     Rule(r"a\.out", "WHOLE"),

@@ -49,10 +49,13 @@ class Controllers(Scratch):
             list(of), ["observer", "feed-forward", "PI", "PID", "reaction observer"]
         )
         budget = json.loads(text_of("docs/verification/areas.json"))["figures"]["lever"]
-        dob, lowpass = (budget[b]["lut4_equivalents"] for b in ("dob", "lowpass"))
+        observer, estimator, window = (
+            budget[b]["lut4_equivalents"] for b in ("observer", "velocity_estimator", "travel_window")
+        )
+        lowpass = estimator - window
         for name, filters in (("observer", 0), ("PI", 1), ("PID", 2), ("reaction observer", 1)):
-            self.assertEqual(of[name]["lut4_measured"], dob)
-            self.assertEqual(of[name]["lut4_equivalents"], dob + filters * lowpass)
+            self.assertEqual(of[name]["lut4_measured"], observer)
+            self.assertEqual(of[name]["lut4_equivalents"], observer + filters * lowpass)
         # PI is the observer at stall, to a clock of the duty; 1.73 mNm.
         pairs = zip(of["PI"]["stall_nm"], of["observer"]["stall_nm"], strict=True)
         self.assertLess(max(abs(a - b) for a, b in pairs), 2e-3)

@@ -9,7 +9,6 @@
 
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
-#include "feltgate/generated/paper.hpp"
 #include "feltgate/random.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "sim/reference/chain.hpp"
@@ -120,14 +119,11 @@ double inertia_by_hand(Kind kind, double push) {
 
 }  // namespace
 
-TEST_CASE("controllers: feed-forward and observer are the twin's chain, bit by bit") {
+TEST_CASE("controllers: feed-forward is the twin's chain, bit by bit") {
   const Bench b = bench();
   const auto ours = make_chain(Kind::feed_forward, true, tuning_of(b, b.plant));
   const auto twin = make_real_chain("lever", "fixed");
   equal_in_every_bit(*ours, *twin, Map::A::setpoint_torque);
-  // `paper` feeds its observer back.
-  Chain<Paper, Fixed, ControlledChain<Paper, Fixed, AsIs>> paper("paper");
-  equal_in_every_bit(paper, *make_real_chain("paper", "fixed"), Map::A::setpoint_torque);
 }
 
 TEST_CASE("controllers: the observer's word is what the generator gives it") {
@@ -231,12 +227,15 @@ TEST_CASE("controllers: borders as by eigenvalues; PI and PID have none") {
 }
 
 TEST_CASE("controllers: friction that the observer sees is no reaction") {
-  using L = LawNumbers<Lever, Fixed>;
+  using axis::Fixed;
   const Bench b = bench();
+  const axis::Design lever = axis::Design::of<Lever>();
+  const int torque_f = lever["TORQUE_F"], velocity_f = lever["VELOCITY_F"];
   const double friction = b.plant.lugre.coulomb_nm;
   const auto torque = [&](double speed, double seen) {
-    ReactionLaw<Lever, Fixed> law(tuning_of(b, b.plant));
-    return law.tick(L::Torque{}, L::word<L::Torque>(seen), L::word<L::Velocity>(speed)).to_double();
+    ReactionLaw<Fixed> law(lever, tuning_of(b, b.plant));
+    return Fixed::value(law.tick(0, Fixed::of(seen, torque_f), Fixed::of(speed, velocity_f)),
+                        torque_f);
   };
   constexpr double lsb = 1.0 / 65536;
   for (const double speed : {-5.0, -1.0, -0.5, 0.25, 1.0, 20.0}) {

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "feltgate/absolute_position.hpp"
+#include "feltgate/axis/absolute.hpp"
+#include "feltgate/axis/tick_counter.hpp"
 #include "feltgate/generated/lever_absolute.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/reference/chain.hpp"
@@ -44,22 +45,35 @@ struct Motion {
 Motion steady(double rad_s) { return {rad_s, 0, rad_s < 1 ? 0.6 : 0.3}; }
 constexpr Motion ramp{0, kRamp_rad_s2, 0.4};
 
+/// A design's data with the framing of D.
+template <class D>
+axis::Design design_of_reading() {
+  axis::Design design = axis::Design::of<D>();
+  design.constants["ABSOLUTE_FRAMING"] = D::absolute_framing;
+  return design;
+}
+template <class D>
+AbsoluteEncoder::Parameters parameters_of_reading() {
+  return axis::Absolute::parameters(design_of_reading<D>());
+}
+
 /// What the core's decoder has as travel at the sample of each tick, clock by clock of its lines.
 template <class D>
 std::vector<std::int16_t> read_by(const Motion& motion) {
-  constexpr int sample = Map::first_wave_clock + Map::T::sample;
-  AbsolutePosition<D> position;
-  AbsoluteSensor sensor(absolute_parameters<D>());
+  constexpr int sample = axis::TickCounter::sample_clock;
+  axis::Absolute position(design_of_reading<D>());
+  AbsoluteSensor sensor(parameters_of_reading<D>());
   std::vector<std::int16_t> out;
   Clock now = 0;
   for (int k = 0; k < motion.ticks(); ++k) {
     sensor.turn(motion.at(k * kTick_s), motion.at((k + 1) * kTick_s), now, D::clocks_per_tick);
     for (int c = 0; c < D::clocks_per_tick; ++c, ++now) {
-      typename AbsolutePosition<D>::In in;
-      in.data = sensor.pin(now, position.serial());
-      in.sample = c == sample;
-      if (in.sample) out.push_back(static_cast<std::int16_t>(position.out().travel));
-      position.clock(in);
+      axis::Pins in;
+      axis::Encoder at;
+      in.encoder_data = sensor.pin(now, position.lines());
+      at.sample = c == sample;
+      if (at.sample) out.push_back(static_cast<std::int16_t>(position.out().travel));
+      position.clock(in, at, {});
     }
   }
   return out;
@@ -86,13 +100,15 @@ struct Errors {
 template <class D>
 Errors errors_of(const std::vector<std::int16_t>& travel, const Motion& motion) {
   const double gain = std::ldexp(D::m1 * kTick_s / kCount_rad, D::velocity_shift);
-  Chain<D, Fixed> chain("N");
+  DesignInfo design = design_info<D>();
+  design.data.constants["M1"] = D::m1;
+  design.data.constants["VELOCITY_SHIFT"] = D::velocity_shift;
+  Chain<axis::Fixed> chain("N", design);
   chain.set_parameter(D::A::velocity_a1, -std::expm1(-kPole_rad_s * kTick_s));
   Spread filtered, raw;
   for (int k = 0; k < motion.ticks(); ++k) {
     const auto t = travel[static_cast<std::size_t>(k)];
-    const double input =
-        std::ldexp(static_cast<double>(chain.control().velocity_input(t)), -D::f.velocity.fraction);
+    const double input = axis::Fixed::value(chain.velocity_input(t), D::f.velocity.fraction);
     ChainIn in;
     in.position = in.travel = t;
     chain.tick(in);
@@ -162,9 +178,9 @@ TEST_CASE("sampled velocity: an absolute encoder's, with closed forms") {
   const auto age_s = [](const AbsoluteEncoder::Parameters& p, double held_ticks) {
     return (std::ceil(p.reading_clocks() / 50.0) + (held_ticks - 1) / 2) * kTick_s;
   };
-  const double of_ssi = age_s(absolute_parameters<BySsi>(), kPeriod_ticks);
+  const double of_ssi = age_s(parameters_of_reading<BySsi>(), kPeriod_ticks);
   // One reading in 16 is held twice as long.
-  const double of_spi = age_s(absolute_parameters<LeverAbsolute>(), kPeriod_ticks * 18.0 / 16);
+  const double of_spi = age_s(parameters_of_reading<LeverAbsolute>(), kPeriod_ticks * 18.0 / 16);
   check(LeverAbsolute{}, spi, of_spi, true);
   const auto four = check(ByWindow<BySsi, 384, 0>{}, ssi, of_ssi, false);
   check(ByWindow<BySsi, 96, 2>{}, ssi, of_ssi, false);

@@ -24,11 +24,14 @@ namespace {
 using namespace feltgate;
 using HandKind = plant::HandPhase::Kind;
 
+/// The file of the design that was made for a motor.
+std::string design_of(const std::string& motor) { return FELTGATE_MOTORS + motor + ".toml"; }
+
 /// One motor with its design.
 class Bench {
  public:
   explicit Bench(const test::Kind& kind)
-      : kind_(kind), plant_(test::plant_of(kind)), design_(design_named(kind.name)) {}
+      : kind_(kind), plant_(test::plant_of(kind)), design_(design_named(design_of(kind.name))) {}
 
   double si(const char* word) const { return design_.find(word)->si; }
   const DesignInfo& design() const { return design_; }
@@ -69,7 +72,7 @@ class Bench {
   }
   RunResult run(const Scenario& s, std::function<void(const Row&)> row = {}) const {
     RunOptions options;
-    options.design = kind_.name;
+    options.design = design_of(kind_.name);
     options.engine = "twin";
     options.row = std::move(row);
     return run_scenario(s, plant_, options);
@@ -189,7 +192,7 @@ double dead_channel(const std::string& design, double count_rad, double rad_s) {
   test::Moves source;
   for (int k = 0; k < 60; ++k) source.move(wait, k % 2 == 0 ? 1 : -1);
   ReplayOptions options;
-  options.design = design;
+  options.design = design_of(design);
   options.engine = "twin";
   const RunResult r = run_replay(source, "dead", options);
   CHECK(first_of(r) == "channel");
@@ -248,7 +251,7 @@ const test::Kind& kind_named(const std::string& name) {
 TEST_CASE("motors: channel B is dead in a recording of 48 counts in a turn at 10 rad/s") {
   const auto source = traces::open(kHere + "dead_b_48cpr_10rad.vec", {});
   ReplayOptions options;
-  options.design = "hobby_48";
+  options.design = design_of("hobby_48");
   options.engine = "twin";
   const RunResult r = run_replay(*source, "dead", options);
   CHECK(first_of(r) == "channel");

@@ -272,9 +272,3 @@ TEST_CASE("what has no margin, or one of another kind, is told") {
                    "out torque[1] = clamp(-b * velocity[1], -0.1 Nm, 0.1 Nm)\n"),
              Catch::Contains("that of the law's damping"));
 }
-
-TEST_CASE("a design that is not in the program is told") {
-  const AxesScene scene = scene_of("pantograph_floor");
-  CHECK_THROWS_WITH(measured(scene, shipped("pantograph"), Options{}),
-                    Catch::Contains("pantograph_floor.toml: design pantograph_law is not in"));
-}

@@ -140,7 +140,7 @@ class LoopDevice {
   std::function<void(std::int64_t tick)> host;  ///< called after each tick; may be empty
 
  private:
-  TwinBackend<D> core_;
+  TwinBackend<FeltgateCore> core_{design_info<D>()};
   plant::Plant plant_;
   plant::SigmaDelta modulator_{32};
   Snapshot last_;

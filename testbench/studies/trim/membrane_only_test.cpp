@@ -11,6 +11,7 @@
 #include "membrane_only.hpp"
 #include "mismatch.hpp"
 #include "sim/backends/make_backends.hpp"
+#include "twins.hpp"
 
 using namespace feltgate;
 using D = MembraneOnly;
@@ -32,11 +33,11 @@ class Pair {
   }
   const CoreOut& out() const { return twin_.out(); }
   const std::string& where() const { return where_; }
-  FeltgateCore<D>& twin() { return twin_; }
+  test::CoreOf<D>& twin() { return twin_; }
 
  private:
-  RtlCore<Vmembrane_only, D> rtl_;
-  FeltgateCore<D> twin_;
+  RtlCore<Vmembrane_only> rtl_{design_of<D>()};
+  test::CoreOf<D> twin_;
   std::int64_t clocks_ = 0;
   std::string where_;
 };

@@ -235,9 +235,8 @@ AxesScene shipped(const std::string& name) {
 }
 
 trim::LawMaker coupled() {
-  return [design = find_axes_design("two_levers_law")->info()] {
-    return make_axes_law(laws + "coupled_levers.law", design, 2);
-  };
+  return
+      [] { return make_axes_law(laws + "coupled_levers.law", design_named("two_levers_law"), 2); };
 }
 
 trim::Signal signal(std::initializer_list<double> values) {

@@ -4,7 +4,6 @@
 
 import difflib
 import os
-import warnings
 from pathlib import Path
 from typing import List, Union
 
@@ -15,6 +14,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 _DATA = Path(__file__).parent / "data"
 SCENES, PLANTS, DESIGNS = "vectors/scenes", "vectors/plants", "rtl/designs"
 LAWS = "rtl/laws"
+_core.set_data(str(_DATA))
 
 
 def root() -> Path:
@@ -37,8 +37,8 @@ def plants() -> List[str]:
 
 
 def designs() -> List[str]:
-    """Names of the designs that are compiled into this package."""
-    return sorted([*_core.design_names(), *_core.extra_designs])
+    """Names of the designs; wherever one is asked for, the path of a design file does, too."""
+    return sorted({*_names(DESIGNS), *(path.stem for path in (_DATA / DESIGNS).glob("*.toml"))})
 
 
 def find(name: PathLike, folder: str, suffix: str = ".toml") -> str:
@@ -48,10 +48,11 @@ def find(name: PathLike, folder: str, suffix: str = ".toml") -> str:
         if not os.path.isfile(text):
             raise ValueError(f"{text}: there is no such file; check the path")
         return text
-    path = root() / folder / f"{text}{suffix}"
-    if path.is_file():
-        return str(path)
-    names = _names(folder, suffix)
+    for place in (root(), _DATA) if folder == DESIGNS else (root(),):
+        path = place / folder / f"{text}{suffix}"
+        if path.is_file():
+            return str(path)
+    names = designs() if folder == DESIGNS else _names(folder, suffix)
     near = difflib.get_close_matches(text, names, n=1)
     hint = f"did you mean \"{near[0]}\"? " if near else ""
     raise ValueError(f"\"{text}\" is not in {folder}; {hint}choose one of {', '.join(names)} "
@@ -59,30 +60,5 @@ def find(name: PathLike, folder: str, suffix: str = ".toml") -> str:
 
 
 def design_files(design: str) -> "tuple[str, str]":
-    """TOML of a design and of the registers. Raises ValueError for one that is not compiled in, or whose
-    TOML says something else than what was compiled in."""
-    if design not in designs():
-        near = difflib.get_close_matches(str(design), designs(), n=1)
-        hint = f"did you mean \"{near[0]}\"? " if near else ""
-        raise ValueError(f"design \"{design}\" is not built in; {hint}"
-                         f"choose one of {', '.join(designs())}")
-    registers = str(root() / "rtl/registers.toml")
-    inside = _DATA / DESIGNS / f"{design}.toml"
-    toml = root() / DESIGNS / f"{design}.toml"
-    if not toml.is_file():
-        toml = inside
-    _core.require_current(design, str(toml), registers)
-    if toml == inside:
-        _tell_if_changed(design, registers)
-    return str(toml), registers
-
-
-def _tell_if_changed(design: str, registers: str) -> None:
-    """Warns where the file that this package was installed from says something else today."""
-    listed = (_DATA / DESIGNS / "installed_from.txt").read_text(encoding="utf-8").splitlines()
-    toml = dict(line.split("=", 1) for line in listed).get(design, "")
-    if os.path.isfile(toml):
-        try:
-            _core.require_current(design, toml, registers)
-        except ValueError as error:
-            warnings.warn(f"{error}; until then this package goes by its own copy", stacklevel=4)
+    """TOML of a design and of the registers. Raises ValueError for one that is not there."""
+    return find(design, DESIGNS), str(root() / "rtl/registers.toml")

@@ -59,12 +59,12 @@ module channels_proof (
   (* hierconn *) wire [2:0] \u_dut.reading_q ;
 
   function automatic logic writable(input logic [13:0] addr);
-    writable = addr[1:0] == 2'd0 && (addr < 14'h800 || addr[13:2] == feltgate_map_pkg::A_CONTROL ||
-                                     addr[13:2] == feltgate_map_pkg::A_COMMAND);
+    writable = addr[1:0] == 2'd0 && (addr < 14'h800 || addr[13:2] == map::A_CONTROL ||
+                                     addr[13:2] == map::A_COMMAND);
   endfunction
   function automatic logic only_readable(input logic [13:0] addr);
-    only_readable = addr[1:0] == 2'd0 && addr[13:2] >= feltgate_map_pkg::A_SNAPSHOT &&
-                    addr[13:2] < feltgate_map_pkg::A_SNAPSHOT + 12'd64;
+    only_readable = addr[1:0] == 2'd0 && addr[13:2] >= map::A_SNAPSHOT &&
+                    addr[13:2] < map::A_SNAPSHOT + 12'd64;
   endfunction
 
   // What was handed over and not answered: one of each at most.
@@ -173,7 +173,7 @@ module channels_proof (
         inside_disarm: assert (!disarm_q || (r_asked_q && since_q == 2'd1));
       end
       inside_age: assert (age_q == 3'd0 || (age_q == 3'd1 && bvalid));
-      writes: cover (taken && awaddr_q[13:2] == feltgate_map_pkg::A_CONTROL);
+      writes: cover (taken && awaddr_q[13:2] == map::A_CONTROL);
       reads: cover (rvalid && rresp == 2'b00 && r_ready_q);
       refuses: cover (bvalid && bresp == 2'b10);
       steps_aside: cover (disarm && fetched);

@@ -33,8 +33,8 @@
   (* hierconn *) wire [2:0] \u_dut.bad_q ;
 
   logic writable, readable, fits, answer;
-  assign writable = adr_i < 12'h200 || adr_i == feltgate_map_pkg::A_CONTROL || adr_i == feltgate_map_pkg::A_COMMAND;
-  assign readable = writable || (adr_i >= feltgate_map_pkg::A_SNAPSHOT &&
-                                 adr_i < feltgate_map_pkg::A_SNAPSHOT + 12'd64);
+  assign writable = adr_i < 12'h200 || adr_i == map::A_CONTROL || adr_i == map::A_COMMAND;
+  assign readable = writable || (adr_i >= map::A_SNAPSHOT &&
+                                 adr_i < map::A_SNAPSHOT + 12'd64);
   assign fits     = we_i ? writable && sel_i == 4'b1111 : readable;
   assign answer   = ack || err;

@@ -29,7 +29,7 @@ module age_proof (
   end
   always_comb assume (enter_i || !(clear_i || young_q));
 
-  localparam int W = feltgate_pkg::TORQUE_W;
+  localparam int W = cfg::TORQUE_W;
   logic signed [2*W-1:0] torque, torque_q;
   logic fresh, late, late_q, ended_q, ended2_q, cleared_q, zeroed_q, forgives_q;
   engine_outputs #(.AxisCount(2)) u_dut (

@@ -8,7 +8,7 @@ module ring_proof (
     input logic        clk_i,
     input logic        rst_ni,
     input logic        word_valid_i,
-    input logic [ 5:0] word_slot_i,
+    input logic [ 3:0] word_number_i,
     input logic [31:0] word_data_i,
     input logic        event_valid_i,
     input logic [ 8:0] event_number_i,
@@ -30,7 +30,7 @@ module ring_proof (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
       .word_valid_i(word_valid_i),
-      .word_slot_i(word_slot_i),
+      .word_number_i(word_number_i),
       .word_data_i(word_data_i),
       .event_valid_i(event_valid_i),
       .event_number_i(event_number_i),
@@ -54,9 +54,8 @@ module ring_proof (
   (* hierconn *) wire [31:0] \u_dut.level_q ;
   (* hierconn *) wire \u_dut.seen_q ;
   (* hierconn *) wire \u_dut.holds_q ;
-  (* hierconn *) wire [3:0] \u_dut.number_q ;
-  (* hierconn *) wire [3:0] \u_dut.column ;
-  (* hierconn *) wire [3:0] \u_dut.column_q ;
+  (* hierconn *) wire [3:0] \u_dut.columns ;
+  (* hierconn *) wire \u_dut.within_q ;
   (* hierconn *) wire [11:0] \u_dut.words_q ;
   (* hierconn *) wire [RowBits-1:0] \u_dut.row_q ;
   (* hierconn *) wire [RowBits-1:0] \u_dut.pre_q ;
@@ -69,18 +68,24 @@ module ring_proof (
   wire fires = \u_dut.fires ;
   wire starts = \u_dut.starts ;
   wire taking = \u_dut.taking_q ;
-  wire [3:0] number_q = \u_dut.number_q ;
-  wire [3:0] column_q = \u_dut.column_q ;
   wire [11:0] words = \u_dut.words_q ;
+  wire full = \u_dut.columns [3];  // eight words
   wire [RowBits-1:0] row = \u_dut.row_q ;
   wire [RowBits-1:0] pre = \u_dut.pre_q ;
   wire [RowBits-1:0] first_row = \u_dut.first_row ;
   wire [RowBits:0] rows = \u_dut.rows_q ;
   wire [RowBits:0] left = \u_dut.left_q ;
-  wire first = word_valid_i && word_slot_i == feltgate_link_pkg::FIRST_SLOT;
+  localparam logic [3:0] Status = 4'(feltgate_link_pkg::N_STATUS);
+  localparam logic [11:0] All = 12'hfff;
+  logic [11:0] came_q;  // words of the tick, by number
+  wire first = word_valid_i && came_q == '0;
   wire runs = state == 3'd1 || state == 3'd2 || state == 3'd3;
-  // A tick is over a clock before the next begins.
-  always_comb assume (!(\u_dut.ends_q && first));
+  // A tick is over a clock before the next begins; each word of it comes once, the status at the end.
+  always_comb begin
+    assume (!( \u_dut.ends_q && first));
+    assume (!word_valid_i || (word_number_i < 4'd12 && !came_q[word_number_i]));
+    assume (!word_valid_i || word_number_i != Status || (came_q | 12'd1 << Status) == All);
+  end
 
   // The rows before the last trigger.
   logic [RowBits-1:0] low_q, before_q;
@@ -104,25 +109,15 @@ module ring_proof (
   end
   assign from_first = any_q - first_row;
 
-  // Words of the tick that came, and columns of its row that were written.
-  logic [3:0] came_q;
-  logic [7:0] written_q;
+  // Words of the tick that were stored.
+  logic [11:0] stored_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      came_q    <= '1;
-      written_q <= '0;
-    end else if (word_valid_i) begin
-      came_q    <= first ? 4'd1 : (came_q == '1) ? came_q : came_q + 4'd1;
-      written_q <= (first ? 8'd0 : written_q) | (8'(stores) << \u_dut.column [2:0]);
+    if (!rst_ni) {came_q, stored_q} <= '0;
+    else if (word_valid_i) begin
+      came_q   <= word_number_i == Status ? '0 : came_q | 12'd1 << word_number_i;
+      stored_q <= (first ? '0 : stored_q) | 12'(stores) << word_number_i;
     end
   end
-  // Words of the mask among the first n, at most eight; and as many columns.
-  function automatic logic [3:0] among(input logic [11:0] mask, input logic [3:0] n);
-    among = '0;
-    for (int k = 0; k < Words; k++) if (4'(k) < n && mask[k] && !among[3]) among = among + 4'd1;
-  endfunction
-  logic [8:0] columns;
-  assign columns = (9'd1 << among(words, came_q)) - 9'd1;
 
   // The event asked for has come since the last tick ended, and was asked for before it came.
   logic asked, event_came_q;
@@ -152,7 +147,7 @@ module ring_proof (
     if (rst_ni && past_ok_q) begin
       rows_before_stay: assert (!stores || state != 3'd3 || since >= before_q);
       done_is_full: assert (state != 3'd4 || (rows == (RowBits + 1)'(Rows) && first_row == low_q));
-      row_is_one_tick: assert (!whole || (came_q == 4'(Words) && {1'b0, written_q} == columns));
+      row_is_one_tick: assert (!whole || (came_q == '0 && (stored_q == words || full)));
       torn_is_no_row: assert (!torn_q || {1'b0, from_first} >= rows);
       counts_in_range: assert (rows <= (RowBits + 1)'(Rows) && (!taking || !runs || rows < (RowBits + 1)'(Rows)) &&
                                (state != 3'd1 || (left != '0 && left <= {1'b0, pre} && rows + left == {1'b0, pre})) &&
@@ -167,10 +162,9 @@ module ring_proof (
       inside_rest: assert (state != 3'd3 || ({1'b0, since} + left == (RowBits + 1)'(Rows) && since >= before_q &&
                                              rows >= {1'b0, since}));
       inside_wait: assert (state != 3'd2 || rows >= {1'b0, pre});
-      inside_number: assert (number_q == came_q);
-      inside_ends: assert (!\u_dut.ends_q || came_q == 4'(Words));
-      inside_column: assert (!taking || !runs || (column_q == among(words, came_q) && came_q != '0 &&
-                                                  {1'b0, written_q} == columns));
+      inside_within: assert ( \u_dut.within_q == (came_q != '0) && !came_q[Status]);
+      inside_ends: assert (!\u_dut.ends_q || came_q == '0);
+      inside_stored: assert (!taking || !runs || full || stored_q == (words & (came_q == '0 ? All : came_q)));
       triggers: cover (fires && taking);
       triggers_by_event: cover (fires && taking && \u_dut.event_q );
       fills: cover (state == 3'd1 && rows != '0);

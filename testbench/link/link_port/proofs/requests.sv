@@ -10,7 +10,7 @@ module requests_proof (
     input logic        valid_i,
     input logic        write_i,
     input logic [ 7:0] sequence_i,
-    input logic [13+feltgate_pkg::ENGINE:0] address_i,
+    input logic [13+cfg::ENGINE:0] address_i,
     input logic [31:0] data_i,
     input logic        good_i,
     input logic        bad_i,
@@ -28,7 +28,7 @@ module requests_proof (
   logic [15:0] reg_addr, addr;
   logic [31:0] reg_wdata, wdata;
   logic [7:0] reply_byte;
-  localparam int Axes = feltgate_pkg::AXES;
+  localparam int Axes = cfg::AXES;
   link_port #(.Axes(Axes)) u_dut (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .valid_i(valid_i), .write_i(write_i), .sequence_i(sequence_i), .address_i(address_i), .data_i(data_i),
@@ -39,15 +39,15 @@ module requests_proof (
       .addr_o(addr), .wdata_o(wdata), .write_o(write), .rdata_i(rdata_i),
       .valid_o(valid), .byte_o(reply_byte), .last_o(last), .ready_i(ready_i)
   );
-  localparam int AddressW = 14 + feltgate_pkg::ENGINE;
-  localparam logic [15:0] Port = {1'b0, 1'(feltgate_pkg::ENGINE), 14'hfff};
-  localparam logic [15:0] Status = 16'(feltgate_map_pkg::A_SNAPSHOT) + 16'(feltgate_map_pkg::READ_AT_STATUS);
-  localparam logic [5:0] OnlyClear = 6'd1 << feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS;
+  localparam int AddressW = 14 + cfg::ENGINE;
+  localparam logic [15:0] Port = {1'b0, 1'(cfg::ENGINE), 14'hfff};
+  localparam logic [15:0] Status = 16'(map::A_SNAPSHOT) + 16'(map::S_STATUS);
+  localparam logic [5:0] OnlyClear = 6'd1 << map::B_COMMAND_CLEAR_FAULTS;
   localparam logic [1:0] Idle = 2'd0;
   localparam logic [1:0] Wait = 2'd1;
   localparam logic [1:0] Read = 2'd2;
   localparam logic [1:0] Bytes = 2'd3;
-  localparam int ClocksW = 2 + 4 * feltgate_pkg::ENGINE;
+  localparam int ClocksW = 2 + 4 * cfg::ENGINE;
   (* hierconn *) wire [8:0] \u_dut.sequence_q ;
   (* hierconn *) wire \u_dut.done_q ;
   (* hierconn *) wire \u_dut.clear_q ;
@@ -120,7 +120,7 @@ module requests_proof (
     if (!rst_ni) {good_q, bad_q} <= '0;
     else {good_q, bad_q} <= {good_q + 16'(good_i), bad_q + 16'(bad_i)};
   end
-  assign engines = feltgate_pkg::ENGINE != 0 && asked[AddressW-1] && asked[13:12] == 2'd0;
+  assign engines = cfg::ENGINE != 0 && asked[AddressW-1] && asked[13:12] == 2'd0;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       replies_q <= 1'b0;
@@ -199,7 +199,7 @@ module requests_proof (
           : write && addr == 16'(address_i) && wdata == data_i));
       write_of_a_request: assert (!write || (wants && !to_core));
       port_of_request_or_panel: assert (!reg_write || of_core || of_panel);
-      clear_is_there: assert (!of_panel || (reg_write && reg_addr[9:0] == 10'(feltgate_map_pkg::A_COMMAND) &&
+      clear_is_there: assert (!of_panel || (reg_write && reg_addr[9:0] == 10'(map::A_COMMAND) &&
                                             reg_wdata[5:0] == OnlyClear));
       clear_of_each_axis: assert (!of_panel || reg_addr[15:10] == {4'd0, next_clear});
       taken_when_done: assert (!taken || (valid_i && !replies_q && (!write_i || done_q)));

@@ -9,7 +9,7 @@ module frames_proof (
     input logic        clk_i,
     input logic        rst_ni,
     input logic        word_valid_i,
-    input logic [ 5:0] word_slot_i,
+    input logic [ 3:0] word_number_i,
     input logic [31:0] word_data_i,
     input logic [15:0] addr_i,
     input logic [31:0] wdata_i,
@@ -25,12 +25,12 @@ module frames_proof (
   logic [7:0] out;
   link_stream u_dut (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .word_valid_i(word_valid_i), .word_slot_i(word_slot_i), .word_data_i(word_data_i),
+      .word_valid_i(word_valid_i), .word_number_i(word_number_i), .word_data_i(word_data_i),
       .addr_i(addr_i), .wdata_i(wdata_i), .write_i(write_i), .rdata_o(rdata),
       .valid_o(valid), .byte_o(out), .last_o(last), .ready_i(ready_i)
   );
   (* hierconn *) wire [2:0] \u_dut.state_q ;
-  (* hierconn *) wire [3:0] \u_dut.number_q ;
+  (* hierconn *) wire \u_dut.within_q ;
   (* hierconn *) wire [3:0] \u_dut.at_q ;
   (* hierconn *) wire [1:0] \u_dut.index_q ;
   (* hierconn *) wire [11:0] \u_dut.words_q ;
@@ -48,12 +48,16 @@ module frames_proof (
   wire [1:0] index = \u_dut.index_q ;
   wire [11:0] left = \u_dut.left_q ;
 
-  // The snapshot: its words by their place in the tick, and whether the tick was whole.
-  logic first;
-  logic [3:0] place, place_q;
-  assign first = word_valid_i && word_slot_i == feltgate_link_pkg::FIRST_SLOT;
-  assign place = first ? 4'd0 : place_q;
-  always_ff @(posedge clk_i) if (word_valid_i) place_q <= place + 4'd1;
+  // The snapshot: its words by number; the status is a tick's last, never its only one.
+  localparam logic [3:0] Status = 4'(feltgate_link_pkg::N_STATUS);
+  logic first, within_q;
+  wire [3:0] place = word_number_i;
+  assign first = word_valid_i && !within_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) within_q <= 1'b0;
+    else if (word_valid_i) within_q <= place != Status;
+  end
+  always_comb assume (!word_valid_i || (place < 4'(Words) && (within_q || place != Status)));
 
   // The registers, and the ticks that are due, by the page.
   logic [11:0] mask_q;
@@ -108,7 +112,7 @@ module frames_proof (
         byte_q          <= 2'd0;
         frame_counter_q <= counter_q;
       end
-      if (sends_q && !kept_q && word_valid_i && place == 4'(Words - 1)) kept_q <= 1'b1;
+      if (sends_q && !kept_q && word_valid_i && place == Status) kept_q <= 1'b1;
       if (taken) byte_q <= byte_q + 2'd1;
       if (taken && byte_q == 2'd3) head_q <= 1'b0;
       if (word_ends) sent_q <= sent_q | (12'd1 << word);
@@ -188,7 +192,7 @@ module frames_proof (
       end
 
       inside_state: assert (state <= 3'd4 && (!sends_q || ((state == 3'd1) == !kept_q && (!kept_q || (state == 3'd2) == head_q))));
-      inside_place: assert (!sends_q || place_q == \u_dut.number_q );
+      inside_within: assert ( \u_dut.within_q == within_q);
       inside_index: assert (index == byte_q && (state == 3'd2 || state == 3'd4 || index == 2'd0));
       inside_registers: assert (\u_dut.words_q == mask_q && \u_dut.period_q == period_q);
       inside_ticks: assert (period_q == '0 || (any_q ? since_q < period_q && \u_dut.ticks_q == period_q - 24'd1 - since_q

@@ -17,7 +17,7 @@ module line_proof (
     input logic rx_i
 );
   localparam int Baud = `RATE;
-  localparam int ClockHz = feltgate_pkg::CLOCK_HZ;
+  localparam int ClockHz = cfg::CLOCK_HZ;
   // A middle is met to a clock, and a quarter more, since the rate is one of whole steps. Units as in uart_tx's
   // proof: a clock lasts 2 Baud, a bit 2 ClockHz.
   localparam logic [31:0] OFF = 32'(2 * Baud + Baud / 2);

@@ -17,7 +17,7 @@ module line_proof (
     input logic       valid_i
 );
   localparam int Baud = `RATE;
-  localparam int ClockHz = feltgate_pkg::CLOCK_HZ;
+  localparam int ClockHz = cfg::CLOCK_HZ;
   // In units of 1 / (Baud * ClockHz) a clock lasts Baud and a bit ClockHz.
   // An edge may be a clock off, and a quarter more, since the rate is one of whole steps.
   localparam logic [31:0] OFF = 32'(Baud + Baud / 4);

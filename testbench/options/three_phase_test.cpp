@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+#include "feltgate/axis/three_phase.hpp"
+
+#include "ports/three_phase.hpp"
+
+using namespace feltgate::test;
+
+namespace {
+
+struct Twin : BlockTwin<ports::three_phase> {
+  static Drive drive(const In& in) {
+    const auto& d = in.drive;
+    return {d.gates_enable, d.gates_clear, d.clear,   d.pwm_mode, d.polarity, d.direct,
+            d.sample,       d.valid,       d.current, d.feed,     d.duty};
+  }
+  void clock(const In& in) {
+    block.clock({}, drive(in), in.p, {in.count, in.offset - in.p.commutation_offset});
+  }
+  Out out(const In& in) const {
+    const Bridge b = block.out();
+    const unsigned gates = in.drive.gates_clear ? 0 : block.gates();
+    return {{b.measured, b.period_start, b.duty_active, b.current, b.why},
+            gates >> 0 & 1,
+            gates >> 1 & 1,
+            gates >> 2 & 1,
+            gates >> 3 & 1,
+            gates >> 4 & 1,
+            gates >> 5 & 1};
+  }
+  /// The stop clears the gates without a clock.
+  static void asynchronous(In& between, const In& in) {
+    between.drive.gates_clear = in.drive.gates_clear;
+  }
+
+  ThreePhase block{design()};
+};
+
+}  // namespace
+
+TEST_CASE("three_phase: RTL and twin, every clock") {
+  lock_step(Twin(), {800'000, 4, 100'000, "bridge.measured bridge.current bridge.why"});
+}

@@ -81,7 +81,7 @@ run_tests() {
   # What needs no packages of the tests is built while these are installed: the longest of what a
   # build with tests compiles alike. A folder that is configured with tests would be so again.
   if [[ ${PACKAGES_BESIDE-} && ! -f $STATE/configured && ! $list && ! $name ]]; then
-    build OFF feltgate_run feltgate_rtl feltgate_stability feltgate_shape
+    build OFF feltgate_run rtl_paper feltgate_stability feltgate_shape
   fi
   await_packages
   if [[ $list || $name ]]; then

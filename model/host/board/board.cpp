@@ -131,10 +131,15 @@ LeverBoard::LeverBoard(std::unique_ptr<Core> core, const plant::Parameters& para
 
 StepPlan LeverBoard::plan(const plant::Parameters& parameters, const plant::Hand& hand,
                           const DesignInfo& design) {
-  const Scenario s = as_run(scene_of(parameters, hand), design);
+  Scenario s = as_run(scene_of(parameters, hand), design);
   check_phases(s, parameters, design);
   check_step(s, parameters, static_cast<double>(design.clock_hz));
   if (s.switched) return StepPlan(s.step_clocks);
+  // Where the plant allows it, steps end with ticks, which the twin takes as a whole.
+  const int tick = design.clocks_per_tick;
+  if (longest_step_clocks(s, parameters, static_cast<double>(design.clock_hz)) >= tick) {
+    s.step_clocks = (s.step_clocks + tick - 1) / tick * tick;
+  }
   return {s, parameters, design};
 }
 

@@ -142,6 +142,8 @@ class LinkPort {
     if (state_ == State::bytes) return true;
     return state_ == State::idle && !r.valid && status_ == r.write && address_ == r.address;
   }
+  /// waits(), and no request is there or replied to.
+  bool rests(const In& in) const { return state_ == State::idle && !in.request.valid && waits(in); }
 
  private:
   enum class State : std::uint8_t { idle, wait, read, bytes };

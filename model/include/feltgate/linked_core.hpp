@@ -65,21 +65,7 @@ class LinkedCore {
   void clock(const In& in) {
     const typename Port::In port = port_in(in);
     const typename Port::Out does = port_.peek(port);
-    const UartRx::Out byte = rx_.out();
-    const LinkTransmitter::Out sent = transmitter_.out();
-    const FrameByte offered = offer();
-    const Words words = words_out();
-    const Shown shown = shown_words(words);
-    stream_.clock({shown.valid, shown.number, shown.data, does.addr, does.wdata, does.write,
-                   sent.stream_ready});
-    capture_.clock({shown.valid, shown.number, shown.data, does.addr, does.wdata, does.write,
-                    shown.event_valid, shown.event_number});
-    view_clock(words, does.addr, does.wdata, does.write);
-    rx_.clock({in.uart_rx});
-    receiver_.clock({byte.byte, byte.valid, byte.error, does.taken});
-    port_.clock(port);
-    transmitter_.clock({does.reply, offered, tx_.out().ready});
-    tx_.clock({sent.byte, sent.valid});
+    clock_link(in, port, does, words_out());
     core_.clock(core_in(in, does));
     show();
   }
@@ -104,6 +90,11 @@ class LinkedCore {
     while (clocks > 0) {
       in.uart_rx = line_.level();
       const std::int64_t quiet = stretch(std::min(quiet_clocks(in), clocks));
+      if (quiet < tick_clocks_ && clocks >= tick_clocks_ && apart(in)) {
+        pass_tick(in, on_snapshot);
+        clocks -= tick_clocks_;
+        continue;
+      }
       if (quiet <= 1) {
         line_.clock(out_.uart_tx);
         clock(in);
@@ -113,9 +104,7 @@ class LinkedCore {
         continue;
       }
       pass(in, port_.peek(port_in(in)), quiet, on_snapshot);
-      line_.skip(quiet);
-      rx_.skip(quiet);
-      tx_.skip(quiet);
+      skip(quiet);
       show();
       clocks -= quiet;
     }
@@ -231,6 +220,58 @@ class LinkedCore {
     }
   }
 
+  /// A clock of the link alone, with what the device gives in it.
+  void clock_link(const In& in, const typename Port::In& port, const typename Port::Out& does,
+                  const Words& words) {
+    const UartRx::Out byte = rx_.out();
+    const LinkTransmitter::Out sent = transmitter_.out();
+    const FrameByte offered = offer();
+    const Shown shown = shown_words(words);
+    stream_.clock({shown.valid, shown.number, shown.data, does.addr, does.wdata, does.write,
+                   sent.stream_ready});
+    capture_.clock({shown.valid, shown.number, shown.data, does.addr, does.wdata, does.write,
+                    shown.event_valid, shown.event_number});
+    view_clock(words, does.addr, does.wdata, does.write);
+    rx_.clock({in.uart_rx});
+    receiver_.clock({byte.byte, byte.valid, byte.error, does.taken});
+    port_.clock(port);
+    transmitter_.clock({does.reply, offered, tx_.out().ready});
+    tx_.clock({sent.byte, sent.valid});
+  }
+  void skip(std::int64_t quiet) {
+    line_.skip(quiet);
+    rx_.skip(quiet);
+    tx_.skip(quiet);
+  }
+
+  /// A tick begins in which nothing of the link reaches the core: no request is there or can come.
+  bool apart(const In& in) const {
+    return kCore && core_.clock_of_tick() == 0 && !linked::pulses(in) && port_.rests(port_in(in)) &&
+           receiver_.idle() && rx_.clocks_to_byte() > tick_clocks_;
+  }
+  /// Such a tick: first the core, then the link with the core's words.
+  template <class OnSnapshot>
+  void pass_tick(In in, OnSnapshot&& on_snapshot) {
+    run_device(in, port_.peek(port_in(in)), tick_clocks_, on_snapshot);
+    for (int at = 0; at < tick_clocks_;) {
+      in.uart_rx = line_.level();
+      const typename Port::In port = port_in(in);
+      const typename Port::Out does = port_.peek(port);
+      const auto quiet = static_cast<int>(within_tick(at, quiet_clocks(in)));
+      if (quiet <= 1) {
+        line_.clock(out_.uart_tx);
+        clock_link(in, port, does, words_at(at));
+        ++at;
+      } else {
+        pass_words(does, at, at + quiet);
+        skip(quiet);
+        at += quiet;
+      }
+      out_.uart_tx = tx_.out().tx;
+    }
+    show();
+  }
+
   /// Number of clocks in which the link only counts the phases of its bits.
   std::int64_t quiet_clocks(const In& in) const {
     if (linked::pulses(in) || !receiver_.idle() || !transmitter_.waits()) return 0;
@@ -248,6 +289,9 @@ class LinkedCore {
   /// Number of the word that each axis gives in a clock of this tick; -1: none.
   void note_words_by_clock() {
     for (std::size_t n = 0; n < N; ++n) {
+      const int duty = core_of(core_, n).duty_clock();
+      if (noted_[n] == duty) continue;
+      noted_[n] = duty;
       given_[n].assign(static_cast<std::size_t>(tick_clocks_), -1);
       for (int k = 0; k < kWords; ++k) {
         const int number = linked::number_of(axis::Snapshot::places[k]);
@@ -274,10 +318,12 @@ class LinkedCore {
     if (!kAxes && at == 0 && quiet >= tick_clocks_ && !stream_.on() && !capture_.runs()) {
       return quiet / tick_clocks_ * tick_clocks_;
     }
-    if (stream_.keeps() && at <= last_word()) {
-      quiet = std::min<std::int64_t>(quiet, last_word() - at);
-    }
-    return std::min<std::int64_t>(quiet, tick_clocks_ - at);
+    return within_tick(at, quiet);
+  }
+  /// Not past the tick's end, nor past the last word of a frame.
+  std::int64_t within_tick(int at, std::int64_t quiet) const {
+    const bool keeps = stream_.keeps() && at <= last_word();
+    return std::min<std::int64_t>(quiet, keeps ? last_word() - at : tick_clocks_ - at);
   }
 
   /// Passes a stretch of quiet clocks; of several ticks the last one's words count.
@@ -285,7 +331,13 @@ class LinkedCore {
   void pass(const In& in, const typename Port::Out& port, std::int64_t clocks,
             OnSnapshot&& on_snapshot) {
     const int from = core_.clock_of_tick();
-    const int to = static_cast<int>(from + std::min<std::int64_t>(clocks, tick_clocks_));
+    run_device(in, port, clocks, on_snapshot);
+    pass_words(port, from, static_cast<int>(from + std::min<std::int64_t>(clocks, tick_clocks_)));
+  }
+  template <class OnSnapshot>
+  void run_device(const In& in, const typename Port::Out& port, std::int64_t clocks,
+                  OnSnapshot&& on_snapshot) {
+    const int from = core_.clock_of_tick();
     note_words_by_clock();
     const auto at_snapshot = [&] {
       show();
@@ -299,18 +351,26 @@ class LinkedCore {
         if (kAxes || capture_.runs()) events_.push_back({from + static_cast<int>(clock), number});
       });
     }
+  }
+  /// What the device has given in a clock of the tick that it has passed.
+  Words words_at(int at) const {
+    Words words;
+    for (std::size_t n = 0; n < N; ++n) {
+      const int k = given_[n][static_cast<std::size_t>(at)];
+      words.valid[n] = k >= 0;
+      if (k < 0) continue;
+      words.number[n] = static_cast<std::uint8_t>(k);
+      words.data[n] = device_word(n, LinkMap::slots[k]);
+    }
+    words.last = at == tick_clocks_ - 1;
+    return words;
+  }
+  /// Quiet clocks of stream, capture and view.
+  void pass_words(const typename Port::Out& port, int from, int to) {
     std::size_t told = 0;
     bool showed = true;
     for (int at = from; at < to; ++at) {
-      Words words;
-      for (std::size_t n = 0; n < N; ++n) {
-        const int k = given_[n][static_cast<std::size_t>(at)];
-        words.valid[n] = k >= 0;
-        if (k < 0) continue;
-        words.number[n] = static_cast<std::uint8_t>(k);
-        words.data[n] = device_word(n, LinkMap::slots[k]);
-      }
-      words.last = at == tick_clocks_ - 1;
+      Words words = words_at(at);
       if (told < events_.size() && events_[told].clock == at) {
         words.event_valid = true;
         words.event_number = events_[told++].number;
@@ -357,6 +417,7 @@ class LinkedCore {
   int tick_clocks_;
   std::vector<Event> events_;  ///< of a stretch, while a capture runs
   std::array<std::vector<std::int8_t>, N> given_;
+  std::array<int, N> noted_{};  ///< clock of the duty for which they hold
 };
 
 }  // namespace feltgate

@@ -65,6 +65,10 @@ class UartRx {
   void skip(std::int64_t clocks) {
     if (busy_) phase_ += static_cast<std::uint32_t>(clocks) * step_;
   }
+  /// At least so many clocks pass before a byte has come.
+  std::int64_t clocks_to_byte() const {
+    return out_.valid || out_.error ? 0 : (busy_ ? 9 - bit_ : 9) * std::int64_t{kBit} / step_;
+  }
   /// More clocks than any run has.
   static constexpr std::int64_t kForever = std::numeric_limits<std::int64_t>::max() / 2;
 

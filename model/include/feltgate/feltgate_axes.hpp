@@ -63,6 +63,13 @@ class FeltgateAxes {
   }
   template <class OnSnapshot, class Watcher>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Watcher& watcher) {
+    advance(in, clocks, on_snapshot, watcher);
+    settle();
+    show(in);
+  }
+  /// As run(), with out() as after FeltgateCore::advance().
+  template <class OnSnapshot, class Watcher>
+  void advance(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Watcher& watcher) {
     std::int64_t at = 0;
     while (at < clocks) {
       std::array<CoreIn, N> each = inputs(in);
@@ -96,18 +103,6 @@ class FeltgateAxes {
   /// The logic between engine and cores.
   const Glue& glue() const { return glue_; }
   Glue& glue() { return glue_; }
-  /// Whether for `clocks` clocks neither a duty in force nor a gate enable changes; see
-  /// FeltgateCore::calm().
-  bool calm(const In& in, std::int64_t clocks) {
-    const std::array<CoreIn, N> each = inputs(in);
-    if (clock_of_tick() != 0 || !glue_.by_runs(in, cores_, each) || !glue_.may_tick(kMeasured)) {
-      return false;
-    }
-    for (std::size_t n = 0; n < N; ++n) {
-      if (!cores_[n].calm(each[n], clocks)) return false;
-    }
-    return true;
-  }
 
  private:
   template <std::size_t... Axis>
@@ -131,12 +126,16 @@ class FeltgateAxes {
   // Out of line, like pass(): flattened into an engine's advance() it takes a minute to compile and
   // is no faster.
   [[gnu::noinline]] void one_clock(const In& in, const std::array<CoreIn, N>& each) {
+    settle();
     const int at = clock_of_tick();
     if (at == kSample) taken_ = take(in, 0);
     duties_ = at == cores_[0].clocks_per_tick() - 1 ? 0 : duties_ | duties();
     glue_.clock(in, cores_, each);
     for (std::size_t n = 0; n < N; ++n) cores_[n].clock(each[n]);
     show_axes();
+  }
+  void settle() {
+    for (Core& core : cores_) core.settle();
   }
   /// The axes whose duty is new, by bit.
   unsigned duties() const {
@@ -196,7 +195,7 @@ class FeltgateAxes {
       duties_ = kAll;
     }
     for (std::size_t n = 0; n < N; ++n) {
-      cores_[n].run(each[n], to - from, [&, n] {
+      cores_[n].advance(each[n], to - from, [&, n] {
         out_.axis[n] = cores_[n].out();
         *snapshot = true;
       });

@@ -163,9 +163,7 @@ class FeltgateCore {
   bool samples() const { return clock_of_tick() == sample_clock; }
   bool last() const { return clock_of_tick() == clocks_per_tick_ - 1; }
   /// Whether in the next clock position, velocity and tau_hat are those of this tick.
-  bool measured() const {
-    return whole_.on ? whole_.at == measured_clock : axis_.tick().tau_hat;
-  }
+  bool measured() const { return whole_.on ? whole_.at == measured_clock : axis_.tick().tau_hat; }
   /// Whether the position becomes 0 in the next clock.
   bool zeroed() const { return axis_.zeroed(); }
   /// Whether no write or command waits for the end of the tick.
@@ -195,7 +193,7 @@ class FeltgateCore {
 
   template <class Encoder, class Bridge>
   static constexpr bool is_plain =
-      std::is_same_v<Encoder, axis::Quadrature> && std::is_same_v<Bridge, axis::HBridge>;
+      std::is_same_v<Encoder, axis::Quadrature>&& std::is_same_v<Bridge, axis::HBridge>;
 
   /// A tick as a whole: the sockets are at clock `at`; the axis is at its beginning until the
   /// sample, and from then on at its end.
@@ -267,7 +265,8 @@ class FeltgateCore {
   }
   template <class Bridge>
   void count_gates(const Bridge& bridge) {
-    for (std::size_t g = 0; g < gate_clocks_.size(); ++g) gate_clocks_[g] += bridge.gates() >> g & 1;
+    for (std::size_t g = 0; g < gate_clocks_.size(); ++g)
+      gate_clocks_[g] += bridge.gates() >> g & 1;
   }
 
   // A tick as a whole. Nothing is written in it, nothing trips, and no input changes but those of
@@ -306,8 +305,7 @@ class FeltgateCore {
            in.law_late == b.law_late && in.law_restart == b.law_restart &&
            in.axis_fault == b.axis_fault && in.axis_silent == b.axis_silent &&
            in.axis_blocked == b.axis_blocked && in.axis_testing == b.axis_testing &&
-           (program || !whole_.sampled) &&
-           (in.encoder == b.encoder || !axis_.laws().spans.used);
+           (program || !whole_.sampled) && (in.encoder == b.encoder || !axis_.laws().spans.used);
   }
   /// At most to the sample, to the duty or to the tick's end; returns the clocks passed.
   template <class OnSnapshot, class Encoder, class Bridge>
@@ -394,8 +392,8 @@ class FeltgateCore {
   /// Against the tick's beginning.
   bool is_ordinary(const axis::Position& now) const {
     const axis::Position& b = whole_.before;
-    return now.why == 0 && !now.illegal && !now.trip_channel && !now.trip_index &&
-           !now.trip_flip && now.error == b.error && now.error_count == b.error_count &&
+    return now.why == 0 && !now.illegal && !now.trip_channel && !now.trip_index && !now.trip_flip &&
+           now.error == b.error && now.error_count == b.error_count &&
            now.rejected_count == b.rejected_count && now.index_position == b.index_position &&
            now.polarity_holds == b.polarity_holds;
   }

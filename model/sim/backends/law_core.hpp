@@ -27,8 +27,8 @@ class LawCore {
     axes_.clock(axes_in(in));
     show();
   }
-  /// Like FeltgateCore::advance(): from event to event while nobody writes. A snapshot is told of at
-  /// the end of its tick, when it is known which runs of the program began in it.
+  /// Like FeltgateCore::advance(): from event to event while nobody writes. A snapshot is told of
+  /// at the end of its tick, when it is known which runs of the program began in it.
   template <class OnSnapshot>
   void advance(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     struct Watcher {

@@ -30,7 +30,7 @@ class TwinBackend : public ClockedBackend {
     if (first != last) events_.push(first, last);
     CoreIn in = inputs();
     const Clock end = now_ + clocks;
-    if (gate_times_) gates_before_ = core_.gate_clocks();
+    gates_before_ = core_.gate_clocks();
     const auto tell = [this] {
       keep(core_.out(), core_.sampled_travel(), core_.writes());
       tell_of_law(core_, &snapshots_.back());
@@ -54,15 +54,12 @@ class TwinBackend : public ClockedBackend {
       now_ = until;
     }
   }
-  void keep_gate_times(bool keep) override { gate_times_ = keep; }
   GateClocks gates() const override {
     const auto after = core_.gate_clocks();
     return {after[0] - gates_before_[0], after[1] - gates_before_[1], after[2] - gates_before_[2],
             after[3] - gates_before_[3], after[4] - gates_before_[4], after[5] - gates_before_[5]};
   }
-  std::vector<LawEvent> law_events() override {
-    return law_events_of(core_);
-  }
+  std::vector<LawEvent> law_events() override { return law_events_of(core_); }
   int duty() const override { return core_.out().duty_active; }
   bool gates_enabled() const override { return core_.out().gates_enable; }
   int on_time(std::size_t leg) const override { return core_.on_time(leg); }
@@ -73,7 +70,6 @@ class TwinBackend : public ClockedBackend {
     gates_before_ = {};
   }
   Core core_;
-  bool gate_times_ = true;
   GateCounts gates_before_{};
 };
 

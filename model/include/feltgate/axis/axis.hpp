@@ -110,7 +110,7 @@ class Axis {
     const Tick tick = this->tick();
     const Safety::In to_safety = this->to_safety(in, tick);
     const Safe safe = q_.safety.see(laws, to_safety);
-    const Values values = this->values(in, safe);
+    const Values values = q_.host.snapshot.goes() ? this->values(in, safe) : Values{};
     const int scene = q_.host.scene;
     const bool renders = safe.armed && !safe.testing && !q_.testing;
     const bool sums = q_.velocity.valid(laws.velocity.latency + laws.scene.summed);
@@ -184,9 +184,9 @@ class Axis {
     // What can trip.
     const auto heat = laws.heat.tick(p, torque.voltage, q_.velocity.state.velocity);
     std::int64_t heat_sum = safety.heat_sum;
-    const bool hot = laws.heat.heat(
-        heat_sum, p, armed,
-        in.bridge.measured ? laws.heat.measured(in.bridge.current) : heat.current);
+    const bool hot =
+        laws.heat.heat(heat_sum, p, armed,
+                       in.bridge.measured ? laws.heat.measured(in.bridge.current) : heat.current);
     const auto travel = static_cast<std::int16_t>(in.position.travel);
     std::optional<SpanMeter::State> spans;
     if (laws.spans.used) {
@@ -367,8 +367,8 @@ class Axis {
   /// A tick begins, and no register is amid something.
   bool rests(bool stop) const {
     return q_.ticks.at == 0 && q_.ticks.count != 0 && params_.whole &&
-           q_.host.registers.rests(false, false) && q_.host.snapshot.rests() &&
-           q_.safety.rests(stop);
+           !q_.host.params.word_error() && q_.host.registers.rests(false, false) &&
+           q_.host.snapshot.rests() && q_.safety.rests(stop);
   }
   Safety::In to_safety(const In& in, const Tick& tick) const {
     return {tick,

@@ -33,8 +33,8 @@ class Quadrature {
     show();
   }
 
-  /// Up to `clocks` clocks without a sample. It stops after a clock that is out of the ordinary, with
-  /// a wrong edge or an index, and returns the clocks passed; `ordinary`: there was none.
+  /// Up to `clocks` clocks without a sample. It stops after a clock that is out of the ordinary,
+  /// with a wrong edge or an index, and returns the clocks passed; `ordinary`: there was none.
   int pass(const Pins& pins, const Encoder& e, int clocks, bool& ordinary) {
     if (still(pins.encoder)) return clocks;
     const QuadDecoder::In in = at(pins.encoder, e);

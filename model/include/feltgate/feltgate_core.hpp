@@ -101,7 +101,7 @@ class FeltgateCore {
     sockets([&](auto& encoder, auto& bridge) {
       while (clocks > 0) {
         if (whole_.on ? held(in) : begin(in, encoder, bridge)) {
-          clocks -= pass(in, clocks, on_snapshot, encoder, bridge);
+          clocks -= goes(in, clocks, on_snapshot, encoder, bridge);
         } else {
           settle(encoder, bridge);
           clock(in, encoder, bridge);
@@ -335,20 +335,59 @@ class FeltgateCore {
       if (out_.snapshot_valid && passed > 0) on_snapshot();
       return passed;
     }
-    if (w.at == duty && from < duty) {
-      show_chain(w.values);
-      w.drive = axis_.drive({}, w.drive.gates_clear, false);
-      out_.snapshot_valid = true;
-      out_.word_valid = false;
-      if (reads_) {
-        out_.word_slot = Map::R::current_ref;
-        out_.word_data = static_cast<std::uint32_t>(out_.current_ref);
-      }
-      on_snapshot();
-      out_.snapshot_valid = false;
-    }
+    if (w.at == duty && from < duty) tell(on_snapshot);
     if (w.at == clocks_per_tick_) end(clocks < clocks_per_tick_ + w.at - from, encoder, bridge);
     return goal - from;
+  }
+  template <class OnSnapshot, class Encoder, class Bridge>
+  int goes(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Encoder& encoder,
+           Bridge& bridge) {
+    if constexpr (is_plain<Encoder, Bridge>) {
+      if (whole_.at == 0 && clocks >= clocks_per_tick_ && is_still(encoder, in)) {
+        return pass_tick(in, clocks, on_snapshot, encoder, bridge);
+      }
+    }
+    return pass(in, clocks, on_snapshot, encoder, bridge);
+  }
+  /// All clocks of a tick without an edge.
+  template <class OnSnapshot, class Encoder, class Bridge>
+  int pass_tick(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Encoder& encoder,
+                Bridge& bridge) {
+    Whole& w = whole_;
+    const auto run = [&](int to) {
+      bridge.run(w.drive, to - w.at);
+      w.at = to;
+      show_sockets(encoder, bridge);
+    };
+    w.encoder.sample = true;
+    if (!encoder.take(in, w.encoder) || !take(false, encoder, bridge)) {
+      run(sample_clock + 1);
+      settle(encoder, bridge);
+      return sample_clock + 1;
+    }
+    if (bridge.pass(w.drive, clocks_per_tick_)) {
+      tell(on_snapshot);
+    } else {
+      run(axis_.duty_clock());
+      tell(on_snapshot);
+      run(clocks_per_tick_);
+    }
+    end(clocks < 2 * clocks_per_tick_, encoder, bridge);
+    return clocks_per_tick_;
+  }
+  /// The duty is new.
+  template <class OnSnapshot>
+  void tell(OnSnapshot&& on_snapshot) {
+    show_chain(whole_.values);
+    whole_.drive = axis_.drive({}, whole_.drive.gates_clear, false);
+    out_.snapshot_valid = true;
+    out_.word_valid = false;
+    if (reads_) {
+      out_.word_slot = Map::R::current_ref;
+      out_.word_data = static_cast<std::uint32_t>(out_.current_ref);
+    }
+    on_snapshot();
+    out_.snapshot_valid = false;
   }
   static bool is_still(const axis::Quadrature& encoder, const CoreIn& in) {
     return encoder.still(in.encoder);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 namespace feltgate::stability {
 
@@ -321,36 +322,12 @@ Eigen::VectorXd dominant_eigenvector(const Eigen::MatrixXd& matrix) {
   return solver.eigenvectors().col(best).real();
 }
 
-namespace {
-
-/// By Gauss's elimination with the largest pivot of each column.
-template <class Matrix>
-Matrix eliminated(const Matrix& m, const Matrix& right) {
-  const Eigen::Index n = m.rows();
-  Matrix all(n, n + right.cols());
-  all << m, right;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    Eigen::Index below = 0;
-    all.col(k).tail(n - k).cwiseAbs().maxCoeff(&below);
-    all.row(k).swap(all.row(k + below));
-    for (Eigen::Index i = k + 1; i < n; ++i) all.row(i) -= all(i, k) / all(k, k) * all.row(k);
-  }
-  for (Eigen::Index k = n - 1; k >= 0; --k) {
-    all.row(k) /= all(k, k);
-    for (Eigen::Index i = 0; i < k; ++i) all.row(i) -= all(i, k) * all.row(k);
-  }
-  return all.rightCols(right.cols());
-}
-
-}  // namespace
-
 Eigen::MatrixXcd solved(const Eigen::MatrixXcd& matrix, const Eigen::MatrixXcd& right) {
-  return eliminated(matrix, right);
+  return matrix.partialPivLu().solve(right);
 }
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) {
-  return eliminated<Eigen::MatrixXd>(matrix,
-                                     Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+  return matrix.inverse();
 }
 
 Eigen::MatrixXd matrix_exp_minus_one(const Eigen::MatrixXd& a, double t) {

@@ -364,7 +364,7 @@ class Axis {
   }
 
  private:
-  /// A tick begins, and no register is amid something.
+  /// A tick begins, and no block is in the middle of an operation.
   bool rests(bool stop) const {
     return q_.ticks.at == 0 && q_.ticks.count != 0 && params_.whole &&
            !q_.host.params.word_error() && q_.host.registers.rests(false, false) &&

@@ -112,7 +112,7 @@ struct Scene {
     return next;
   }
   template <class At>
-  static void show(const At&, const State&, State&) {}  // it holds from start on
+  static void show(const At&, const State&, State&) {}  // nothing is shown later
   T charge(const Words<T>& p, bool attract, T distance) const {
     const T whole = N::scale(distance, -distance_f);
     T torque = 0;

@@ -90,7 +90,7 @@ class FeltgateCore {
   /// many calls of clock(). `on_snapshot()` is called whenever out() holds a valid snapshot.
   template <class OnSnapshot>
   void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    advance(in, clocks, on_snapshot);
+    go(in, clocks, on_snapshot, false);
     settle();
   }
   /// As run(), but amid a tick out() shows of this tick only the snapshot, what bridge and encoder
@@ -98,18 +98,7 @@ class FeltgateCore {
   /// goes on in short steps at little cost.
   template <class OnSnapshot>
   void advance(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    sockets([&](auto& encoder, auto& bridge) {
-      while (clocks > 0) {
-        if (whole_.on ? held(in) : begin(in, encoder, bridge)) {
-          clocks -= goes(in, clocks, on_snapshot, encoder, bridge);
-        } else {
-          settle(encoder, bridge);
-          clock(in, encoder, bridge);
-          if (out_.snapshot_valid) on_snapshot();
-          --clocks;
-        }
-      }
-    });
+    go(in, clocks, on_snapshot, true);
     if (whole_.on && whole_.sampled) show_measured();
   }
   /// Makes out() equal to that of so many calls of clock().
@@ -272,6 +261,23 @@ class FeltgateCore {
   // A tick as a whole. Nothing is written in it, nothing trips, and no input changes but those of
   // the sockets; if one of these comes amid it, settle() makes up the clocks so far one by one.
 
+  /// `amid`: a tick may be left amid it.
+  template <class OnSnapshot>
+  void go(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, bool amid) {
+    sockets([&](auto& encoder, auto& bridge) {
+      while (clocks > 0) {
+        const bool may = amid || clocks >= clocks_per_tick_;
+        if (whole_.on ? held(in) : may && begin(in, encoder, bridge)) {
+          clocks -= step(in, clocks, on_snapshot, encoder, bridge);
+        } else {
+          settle(encoder, bridge);
+          clock(in, encoder, bridge);
+          if (out_.snapshot_valid) on_snapshot();
+          --clocks;
+        }
+      }
+    });
+  }
   template <class Encoder, class Bridge>
   bool begin(const CoreIn& in, Encoder& encoder, Bridge& bridge) {
     const axis::Position& position = encoder.out();
@@ -340,7 +346,7 @@ class FeltgateCore {
     return goal - from;
   }
   template <class OnSnapshot, class Encoder, class Bridge>
-  int goes(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Encoder& encoder,
+  int step(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Encoder& encoder,
            Bridge& bridge) {
     if constexpr (is_plain<Encoder, Bridge>) {
       if (whole_.at == 0 && clocks >= clocks_per_tick_ && is_still(encoder, in)) {

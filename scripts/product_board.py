@@ -61,12 +61,15 @@ def write(root, design, output, temporary):
 
     def moved(found):
         source = Path(os.path.normpath(board / found[2]))
-        if source.name == "cfg.sv":
-            source = package
-        if source.name in copied:
-            raise ToolError(f"{BOARD}.qsf: two files {source.name}; rename one")
-        copied[source.name] = source
-        return f"{found[1]}rtl/{source.name}"
+        sources = [package]
+        if source.name != "cfg.sv":
+            files = rtl_sources.of_design([str(source.relative_to(root / "rtl"))], text)
+            sources = [root / "rtl" / file for file in files]
+        for source in sources:
+            if source.name in copied:
+                raise ToolError(f"{BOARD}.qsf: two files {source.name}; rename one")
+            copied[source.name] = source
+        return "\n".join(f"{found[1]}rtl/{source.name}" for source in sources)
 
     settings = SOURCE.sub(moved, settings).replace("SEARCH_PATH ../../tops", "SEARCH_PATH rtl")
     if "cfg.sv" not in copied:

@@ -45,6 +45,14 @@ def top_of(package):
     return (device_of(package).removeprefix("FELTGATE_").lower() or "lever") + "_top"
 
 
+def of_design(names, package):
+    """The files of rtl/ in names for a design, of whose package this is the text: by M/T another velocity estimator."""
+    if re.search(r"\bint MT_COUNTS = 0;", package):
+        return list(names)
+    by_mt = ["options/mt/span_meter.sv", "options/mt/velocity_estimator.sv"]
+    return [file for name in names for file in (by_mt if name == "core/velocity_estimator.sv" else [name])]
+
+
 def code_only(text):
     """SystemVerilog without comments."""
     return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)

@@ -104,11 +104,12 @@ def copy_sources(root, design, folder):
     """
     is_path = isinstance(design, Path)
     package = design if is_path else synth_tools.package_file(root, design, folder / "design")
-    names = [*core_sources(root), *beside_sources(root)]
+    text = package.read_text(encoding="utf-8")
+    names = rtl_sources.of_design([*core_sources(root), *beside_sources(root)], text)
     shutil.copy(package, folder / "cfg.sv")
     for name in names:
         shutil.copy(root / "rtl" / name, folder)
-    device = rtl_sources.device_text(root, package.read_text(encoding="utf-8"))
+    device = rtl_sources.device_text(root, text)
     (folder / Path(rtl_sources.INCLUDE).name).write_text(device, encoding="utf-8")
     return ["cfg.sv", *(Path(name).name for name in names)]
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include <toml++/toml.h>
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {
 

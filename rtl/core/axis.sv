@@ -122,7 +122,7 @@ module axis #(
       .safety_o(safe)
   );
 
-  // What holds the torque back, by its bit.
+  // Bits of the word `limits`.
   always_comb begin
     limits = '0;
     limits[map::L_TORQUE]       = limit_torque;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Encoder monitor. Once per tick (EVENT_AT_LEVELS) it checks whether edges come on one channel only. That
+// Encoder monitor. Once a tick, with the sample, it checks whether edges come on one channel only. That
 // is either chatter on one edge, which lasts only while a torque drives it, or a dead channel. In
 // every clock it checks that count and zero do not change without an edge or a new zero.
 // Documentation: docs/blocks/encoder.md

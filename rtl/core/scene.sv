@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The torque of the scene, not yet limited. One product for each term, one rounding. A scene that
-// the design does not build gives 0. valid_o 4 clocks after velocity_valid_i, of a charge 25 after start_i.
+// the design does not build gives 0. valid_o 4 clocks after velocity_valid_i, of a charge 26 after start_i.
 //   set-point   tau = torque
 //   membrane    tau = +-torque between two faces, back to the side of entry
 //   spring      tau = k * (rest - position), on both sides or below the rest alone
@@ -74,7 +74,7 @@ module scene (
   assign ahead    = !behind && distance != '0;
 
   // Products: stiffness, slope and square of a charge; when the velocity is new, damping.
-  logic [4:0] at;  // clocks since start_i
+  logic [5:0] at;  // clocks since start_i; the words are there in the first
   logic [1:0] after;  // clocks since velocity_valid_i
   logic signed [Operand-1:0] operand_q;
   logic signed [17:0] factor_q;
@@ -82,8 +82,8 @@ module scene (
   logic signed [63:0] product;
   always_ff @(posedge clk_i) begin
     operand_q <= velocity_valid_i ? Operand'(velocity_i) : Operand'(distance);
-    if (start_i)               factor_q <= {1'b0, stiffness};
-    else if (at[0])            factor_q <= {1'b0, slope};
+    if (at[0])                 factor_q <= {1'b0, stiffness};
+    else if (at[1])            factor_q <= {1'b0, slope};
     else if (velocity_valid_i) factor_q <= {1'b0, damping};
     else                       factor_q <= whole[17:0];
     product_q <= operand_q * factor_q;
@@ -111,7 +111,7 @@ module scene (
   generate
   if (cfg::SCENE_MASK[map::SCENE_CHARGE_ATTRACT] || cfg::SCENE_MASK[map::SCENE_CHARGE_REPEL]) begin : g_charge
     divider u_divider (
-        .clk_i(clk_i), .rst_ni(rst_ni), .start_i(at[4] && charge),
+        .clk_i(clk_i), .rst_ni(rst_ni), .start_i(at[5] && charge),
         .dividend_i(strength), .divisor_i(square_q), .quotient_o(quotient), .valid_o(divided)
     );
   end else begin : g_no_charge
@@ -142,17 +142,17 @@ module scene (
     if (!rst_ni) begin
       {at, after, ready_q, valid_o, spring_q, sum_q, negative_q, square_q, far_q, seen_q, from_above_q, torque_o} <= '0;
     end else begin
-      at      <= {at[3:0], start_i};
+      at      <= {at[4:0], start_i};
       after   <= {after[0], velocity_valid_i};
       ready_q <= charge ? divided : after[1];
       valid_o <= ready_q;
-      if (start_i) begin
+      if (at[0]) begin
         seen_q <= membrane && (seen_q || outside);
         if (outside) from_above_q <= above && !ahead;
       end
-      if (at[1]) spring_q           <= PartW'(wall ? push : spring);
-      if (at[2] && charge) spring_q <= PartW'(slant);
-      if (at[3]) {far_q, square_q}  <= {product[63:DistanceF+32] != '0, product[DistanceF+:32]};
+      if (at[2]) spring_q           <= PartW'(wall ? push : spring);
+      if (at[3] && charge) spring_q <= PartW'(slant);
+      if (at[4]) {far_q, square_q}  <= {product[63:DistanceF+32] != '0, product[DistanceF+:32]};
       if (after[1]) begin
         sum_q      <= sum;
         negative_q <= damper || repel || (membrane && !from_above_q);

@@ -52,10 +52,10 @@ module params #(
 
   // The word that is fetched. Bank 15, which no scene has, stands for the scene of the tick.
   localparam logic [4*5-1:0] ScenePlaces = {5'd10, 5'd6, 5'd3, 5'd2};  // after place 1
-  logic [8:0] address, place;
+  logic [8:0] address, place, place_q;
   logic [5:0] next_q;
   logic [35:0] fetch_q;
-  logic of_scene, fetched_q, wrong, warm_q;
+  logic of_scene, fetched_q, wrong, warm_q, good_q;
   logic [4:0] of_bank;
   assign of_scene = clock_i < cfg::TICK_W'(5);
   always_comb begin
@@ -69,24 +69,24 @@ module params #(
   end
   assign address = of_scene ? {scene_i, of_bank} : {3'd0, next_q};
   assign place   = of_scene ? {4'd15, of_bank} : address;  // of its register
-  always_ff @(posedge clk_i) fetch_q <= ram[address];
+  always_ff @(posedge clk_i) {fetch_q, place_q} <= {ram[address], place};
   assign wrong = fetch_q[35:32] != check_of(fetch_q[31:0]);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {next_q, fetched_q, warm_q, word_error_o} <= '0;
+      {next_q, fetched_q, warm_q, good_q, word_error_o} <= '0;
     end else begin
       warm_q       <= 1'b1;
       if (!of_scene) next_q <= next_q + 1'b1;
       fetched_q    <= warm_q && !write_i;  // a word fetched during a write may be anything
+      good_q       <= fetched_q && !wrong && !write_i;  // it may be the word that is written
       word_error_o <= fetched_q && wrong;
     end
   end
 
-  // Into its register: a word that is written, or the one that was fetched.
-  logic [31:0] word;
-  logic good;
-  assign word = write_i ? data_i : fetch_q[31:0];
-  assign good = fetched_q && !wrong;
+  // Into its register, three clocks after its fetch, or when it is written.
+  logic [31:0] word, fetched_word_q;
+  always_ff @(posedge clk_i) fetched_word_q <= fetch_q[31:0];
+  assign word = write_i ? data_i : fetched_word_q;
   logic [cfg::PARAMS_W-1:0] p_q = cfg::PARAMS_RESET;
   assign p_o = p_q;
   generate
@@ -96,8 +96,8 @@ module params #(
     localparam int Bits = 32'(cfg::WORD_BITS[16*n+:16]);
     localparam logic [8:0] At = 9'(cfg::WORD_ADDRESS[16*n+:16]);
     logic fetched_here_q;
-    always_ff @(posedge clk_i) fetched_here_q <= place == At;
-    always @(posedge clk_i) if (write_i ? address_i == At : good && fetched_here_q) p_q[Low+:Bits] <= word[Bits-1:0];
+    always_ff @(posedge clk_i) fetched_here_q <= place_q == At;
+    always @(posedge clk_i) if (write_i ? address_i == At : good_q && fetched_here_q) p_q[Low+:Bits] <= word[Bits-1:0];
   end
   endgenerate
 

@@ -38,7 +38,7 @@ module current_sensors #(
   assign current_clock_o = clock[0];
   assign valid_o         = aligned[0];
 
-  // With the gates enabled, the driver's fault and a current that is missing are kept until the faults are cleared.
+  // A missing current is kept until the faults are cleared; a driver's fault, too, if the gates were enabled.
   logic driver_q, driver_q2, driver_seen_q, missing_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

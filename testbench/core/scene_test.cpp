@@ -9,7 +9,7 @@ using namespace feltgate::test;
 namespace {
 
 struct Twin : TickTwin<ports::scene, Scene<Fixed>> {
-  static constexpr int velocity_clock = 4, holds = velocity_clock + 21;
+  static constexpr int velocity_clock = 4, holds = velocity_clock + 22;
   /// Torques of each scene: backward, none, forward.
   static inline std::array<std::array<int, 3>, 16> torques;
 

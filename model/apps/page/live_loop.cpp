@@ -74,7 +74,6 @@ LiveLoop::LiveLoop(const std::string& design, const plant::Parameters& plant)
       limit_nm_(motor_.limit_nm()),
       hand_nm_rad_(plant::Impedance{}.stiffness_n_m * plant.lever.radius_m * plant.lever.radius_m),
       pins_(plant_.encoder().pins()) {
-  core_.lead().keep_gate_times(false);
   core_.skip_self_test();
   control();
 }
@@ -234,7 +233,6 @@ std::uint64_t hash_of(const std::string& design, const RunInputs& inputs) {
   Fnv1a hash;
   const auto twin = make_backend(design, "twin");
   twin->reset(1, inputs.pins);
-  twin->keep_gate_times(false);
   std::size_t edge = 0, write = 0;
   while (twin->now() < inputs.clocks) {
     const Clock now = twin->now();

@@ -5,8 +5,6 @@
 // them know: names of a design, plant, encoder edges. Documentation: docs/python.md
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <map>
 #include <memory>
 #include <optional>

@@ -19,7 +19,6 @@ class PyTwin {
   const DesignInfo& design() const { return backend_->design(); }
   void reset() {
     backend_->reset(1, traces::pins_at(0));
-    backend_->keep_gate_times(false);
     count_ = 0;
     asked_ = false;
   }

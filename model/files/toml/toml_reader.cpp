@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Strict reading of a TOML table. Documentation: docs/designs.md
+#ifndef TOML_SHARED_LIB  // as pip has it
+#define TOML_IMPLEMENTATION
+#endif
 #include "files/toml/toml_reader.hpp"
 
 #include <algorithm>

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#define TOML_HEADER_ONLY 0        // compiled once, in toml_reader.cpp
+#define TOML_ENABLE_FORMATTERS 0  // nothing writes TOML by them
 #include <toml++/toml.h>
 
 namespace feltgate::config {

@@ -54,7 +54,7 @@ struct BaseFormats {
   Format wall_damping;
 };
 
-/// Every format of the chain, in the order of the wave.
+/// Every format of the chain, in the order of the data.
 struct Formats {
   Format position;               ///< count, wraps
   Format scene_position;         ///< count, saturated: what a scene sees
@@ -84,7 +84,7 @@ struct Formats {
   Format duty;                   ///< clock
   Format duty_sum;               ///< clock, before the limit
   Format limiter;                ///< output of the limiter; it has the binary point of the input
-  Format with_addend;            ///< output of the limiter plus what torque_control adds to it
+  Format with_addend;            ///< output of the limiter plus the back-EMF
   Format limiter_input;          ///< input of the limiter
   Format current_estimate_part;  ///< A: one product of the estimate
   Format current_estimate;       ///< A: (V - Ke*w)/R

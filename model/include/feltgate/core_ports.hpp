@@ -30,7 +30,7 @@ struct CoreIn {
   std::uint32_t reg_wdata = 0;
   bool reg_write = false;  ///< held until a clock in which reg_busy is low
   // The torque that the program of the scene law asks for.
-  std::int32_t law_torque = 0;  ///< raw, in the torque format; sampled at Step::law_torque
+  std::int32_t law_torque = 0;  ///< raw, in the torque format; taken two clocks after the velocity
   bool law_late = false;        ///< no fresh torque: it counts as 0, and the core trips
   bool law_restart = false;     ///< in the last clock of a tick: it may jump in the next
   // State of the other axes of a device with several axes.

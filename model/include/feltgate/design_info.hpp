@@ -185,10 +185,11 @@ inline DesignInfo design_info(std::string name, axis::Design data,
 
 /// The design of a generated header, such as feltgate/generated/lever.hpp.
 template <class D>
-DesignInfo design_info() {
-  return design_info(D::name, axis::Design::of<D>(),
-                     {std::begin(D::parameters), std::end(D::parameters)},
-                     {D::count_rad, D::velocity_gain_rad_s, D::supply_v});
+const DesignInfo& design_info() {
+  static const DesignInfo info = design_info(D::name, axis::Design::of<D>(),
+                                             {std::begin(D::parameters), std::end(D::parameters)},
+                                             {D::count_rad, D::velocity_gain_rad_s, D::supply_v});
+  return info;
 }
 
 }  // namespace feltgate

@@ -63,23 +63,14 @@ class FeltgateAxes {
   }
   template <class OnSnapshot, class Watcher>
   void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Watcher& watcher) {
-    std::int64_t at = 0;
-    while (at < clocks) {
-      std::array<CoreIn, N> each = inputs(in);
-      bool snapshot = false, ends = false;
-      int step = pass(in, each, at, clocks, &snapshot, &ends, watcher);
-      if (step == 0) {
-        step = 1;
-        if (glue_.event_valid()) watcher.event(at, glue_.event_number());
-        one_clock(in, each);
-        snapshot = out_.axis[0].snapshot_valid;
-        ends = last();
-      }
-      if (snapshot) on_snapshot();
-      if (ends) watcher.tick_ends();
-      at += step;
-    }
+    go(in, clocks, on_snapshot, watcher, false);
+    settle();
     show(in);
+  }
+  /// As run(), with out() as after FeltgateCore::advance().
+  template <class OnSnapshot, class Watcher>
+  void advance(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Watcher& watcher) {
+    go(in, clocks, on_snapshot, watcher, true);
   }
 
   const Out& out() const { return out_; }
@@ -96,18 +87,6 @@ class FeltgateAxes {
   /// The logic between engine and cores.
   const Glue& glue() const { return glue_; }
   Glue& glue() { return glue_; }
-  /// Whether for `clocks` clocks neither a duty in force nor a gate enable changes; see
-  /// FeltgateCore::calm().
-  bool calm(const In& in, std::int64_t clocks) {
-    const std::array<CoreIn, N> each = inputs(in);
-    if (clock_of_tick() != 0 || !glue_.by_runs(in, cores_, each) || !glue_.may_tick(kMeasured)) {
-      return false;
-    }
-    for (std::size_t n = 0; n < N; ++n) {
-      if (!cores_[n].calm(each[n], clocks)) return false;
-    }
-    return true;
-  }
 
  private:
   template <std::size_t... Axis>
@@ -128,15 +107,41 @@ class FeltgateAxes {
     void tick_ends() {}
   };
 
+  /// `amid`: a core may be left amid a tick.
+  template <class OnSnapshot, class Watcher>
+  void go(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Watcher& watcher,
+          bool amid) {
+    std::int64_t at = 0;
+    while (at < clocks) {
+      std::array<CoreIn, N> each = inputs(in);
+      bool snapshot = false, ends = false;
+      int step = pass(in, each, at, clocks, &snapshot, &ends, watcher, amid);
+      if (step == 0) {
+        step = 1;
+        if (glue_.event_valid()) watcher.event(at, glue_.event_number());
+        one_clock(in, each);
+        snapshot = out_.axis[0].snapshot_valid;
+        ends = last();
+      }
+      if (snapshot) on_snapshot();
+      if (ends) watcher.tick_ends();
+      at += step;
+    }
+    show(in);
+  }
   // Out of line, like pass(): flattened into an engine's advance() it takes a minute to compile and
   // is no faster.
   [[gnu::noinline]] void one_clock(const In& in, const std::array<CoreIn, N>& each) {
+    settle();
     const int at = clock_of_tick();
     if (at == kSample) taken_ = take(in, 0);
     duties_ = at == cores_[0].clocks_per_tick() - 1 ? 0 : duties_ | duties();
     glue_.clock(in, cores_, each);
     for (std::size_t n = 0; n < N; ++n) cores_[n].clock(each[n]);
     show_axes();
+  }
+  void settle() {
+    for (Core& core : cores_) core.settle();
   }
   /// The axes whose duty is new, by bit.
   unsigned duties() const {
@@ -164,7 +169,8 @@ class FeltgateAxes {
   /// clock().
   template <class Watcher>
   [[gnu::noinline]] int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t at,
-                             std::int64_t clocks, bool* snapshot, bool* ends, Watcher& watcher) {
+                             std::int64_t clocks, bool* snapshot, bool* ends, Watcher& watcher,
+                             bool amid) {
     const int tick = cores_[0].clocks_per_tick();
     const int from = clock_of_tick();
     int to = static_cast<int>(std::min<std::int64_t>(tick, from + clocks - at));
@@ -196,10 +202,15 @@ class FeltgateAxes {
       duties_ = kAll;
     }
     for (std::size_t n = 0; n < N; ++n) {
-      cores_[n].run(each[n], to - from, [&, n] {
+      const auto tell = [&, n] {
         out_.axis[n] = cores_[n].out();
         *snapshot = true;
-      });
+      };
+      if (amid) {
+        cores_[n].advance(each[n], to - from, tell);
+      } else {
+        cores_[n].run(each[n], to - from, tell);
+      }
     }
     *ends = from < tick - 1 && to >= tick - 1;
     if (measures) glue_.tick(kMeasured - from, cores_);

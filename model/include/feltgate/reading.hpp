@@ -29,7 +29,7 @@ struct Reading {
   int scene = 0;              ///< scene number, docs/registers.md
   bool armed = false;
   unsigned limits = 0;  ///< bits: limit::torque, limit::ramp, ...
-  unsigned faults = 0;  ///< bit n: cause n of the supervisor (Fault)
+  unsigned faults = 0;  ///< bit n: cause n of safety (Fault)
 
   /// Names as in "torque, ramp"; empty where no limit acts.
   std::string limit_names() const { return names(limit::names, limits); }

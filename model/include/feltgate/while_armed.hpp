@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Effect of a host's write while the motor is armed: a parameter acts, lets the torque ramp, or is
-// refused; part of the control word is held. Used by the registers' twin, and by chains that run
-// beside a core. Documentation: docs/blocks/torque_control.md, docs/architecture.md
+// refused; part of the control word is held. Used by Device, and by chains that run beside a
+// core. Documentation: docs/blocks/ramp.md, docs/architecture.md
 #pragma once
 
 #include <cstdint>

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "files/toml/toml_reader.hpp"
+
 namespace feltgate {
 
 using plant::Vec3;

@@ -18,9 +18,12 @@
 
 #include "feltgate/encoder_source.hpp"
 #include "feltgate/random.hpp"
-#include "files/toml/toml_reader.hpp"
 #include "sim/loop/scene_law.hpp"
 #include "sim/plant/rotation.hpp"
+
+namespace feltgate::config {
+class TomlReader;
+}
 
 namespace feltgate {
 

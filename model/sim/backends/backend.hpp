@@ -162,9 +162,6 @@ class Backend : public AnyBackend {
   /// Snapshots that became valid during the last advance().
   virtual const std::vector<Snapshot>& snapshots() const = 0;
   virtual GateClocks gates() const = 0;
-  /// false: gates() will not be called, so gate times need not be counted. Call it before the first
-  /// advance().
-  virtual void keep_gate_times(bool) {}
   /// All events of the law since reset(), at most the first 65536; empty for an engine without a
   /// law. Call it only at the end of a run: it may change how the engine computes, but not its
   /// results.

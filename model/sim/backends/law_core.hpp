@@ -27,10 +27,10 @@ class LawCore {
     axes_.clock(axes_in(in));
     show();
   }
-  /// Like FeltgateCore::run(): from event to event while nobody writes. A snapshot is told of at
-  /// the end of its tick, when it is known which runs of the program began in it.
+  /// Like FeltgateCore::advance(): from event to event while nobody writes. A snapshot is told of
+  /// at the end of its tick, when it is known which runs of the program began in it.
   template <class OnSnapshot>
-  void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+  void advance(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     struct Watcher {
       LawCore& core;
       OnSnapshot& on_snapshot;
@@ -40,12 +40,11 @@ class LawCore {
         on_snapshot();
       }
     } watcher{*this, on_snapshot};
-    axes_.run(
+    axes_.advance(
         axes_in(in), clocks, [] {}, watcher);
     show();
   }
   bool snapshot_due() const { return axes_.last(); }
-  bool calm(const CoreIn& in, std::int64_t clocks) { return axes_.calm(axes_in(in), clocks); }
 
   const CoreOut& out() const { return out_; }
   GateCounts gate_clocks() const { return axes_.core(0).gate_clocks(); }

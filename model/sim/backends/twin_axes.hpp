@@ -98,7 +98,7 @@ class TwinAxes : public AxesCores {
         void event(std::int64_t, int) {}
         void tick_ends() { axes.keep(); }
       } watcher{*this};
-      twin_->run(
+      twin_->advance(
           in_, clocks, [] {}, watcher);
       now_ += clocks;
       return;

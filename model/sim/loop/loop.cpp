@@ -86,7 +86,6 @@ class ScenarioRun : public SteppedRun {
     }
     core_.skip_self_test();
     session_.begin();
-    core_.lead().keep_gate_times(s_.switched);
   }
 
   void run_to(Clock clock) override {

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -227,11 +226,8 @@ double largest(const ParameterInfo& p) {
 /// The direction in which the law is the stiffest against the inertia.
 Eigen::VectorXd steepest_direction(const stability::LinearLaw& law, double period_s,
                                    const Eigen::MatrixXd& per_torque) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(
-      per_torque * -stability::torque_per_angle(law, period_s, 5).real());
-  Eigen::Index best = 0;
-  solver.eigenvalues().real().maxCoeff(&best);
-  Eigen::VectorXd out = solver.eigenvectors().col(best).real();
+  const Eigen::MatrixXd spring = -stability::torque_per_angle(law, period_s, 5).real();
+  const Eigen::VectorXd out = stability::dominant_eigenvector(per_torque.lazyProduct(spring));
   return out.cwiseAbs().maxCoeff() > 0 ? (out / out.cwiseAbs().maxCoeff()).eval() : out;
 }
 

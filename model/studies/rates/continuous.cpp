@@ -8,9 +8,6 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Core>
-#include <Eigen/LU>
-
 #include "feltgate/generated/causes.hpp"
 #include "feltgate/largest.hpp"
 #include "studies/stability/linear_loop.hpp"
@@ -151,12 +148,12 @@ void Continuous::look() {
   const auto largest = [](const Eigen::MatrixXd& m) {
     return stability::eigenvalues(m).real().maxCoeff();
   };
-  const double steep = largest(per_torque * stiffness);
+  const double steep = largest(per_torque.lazyProduct(stiffness));
   const bool stiff = largest(stiffness) > rounding_nm_rad || slope_.stiffness_nm_rad > 0;
   if (largest(stiffness) <= rounding_nm_rad && wide.cols() > 1) {
     slope_.coupled = slope_.coupled || (stiffness - stiffness.transpose()).norm() > rounding_nm_rad;
   }
-  const double compared = stiff ? steep : largest(per_torque * damping);
+  const double compared = stiff ? steep : largest(per_torque.lazyProduct(damping));
   // A stiff place ends the search for places that only damp.
   if (stiff && slope_.stiffness_nm_rad <= 0) steepest_ = steepest_nm_ = 0;
   // Of places that are as steep, the one with the most torque: there the law is not about to end.
@@ -186,7 +183,7 @@ Eigen::VectorXd Continuous::at_rad() const {
 }
 
 Eigen::MatrixXd Continuous::per_torque(const Eigen::VectorXd& at_rad) const {
-  if (setting_.inertia) return setting_.inertia(at_rad).inverse();
+  if (setting_.inertia) return stability::inverse(setting_.inertia(at_rad));
   return Eigen::MatrixXd::Identity(at_rad.size(), at_rad.size());
 }
 

@@ -4,7 +4,6 @@
 // Documentation: docs/speed-for-accuracy.md
 #include "studies/stability/axes_linear_loop.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -279,7 +278,7 @@ AxesLoopModel around(const design::Elaborated& e, const plant::Parameters& joint
 
 AxesLoopModel make_axes_model(const design::Elaborated& e, const plant::Parameters& joint,
                               const Eigen::MatrixXd& inertia, const plant::HandDynamics* hand) {
-  const Eigen::MatrixXd per_torque = inertia.inverse();
+  const Eigen::MatrixXd per_torque = inverse(inertia);
   if (!per_torque.allFinite()) throw std::invalid_argument("an inertia that has no inverse");
   plant::Parameters mean = joint;
   mean.lever.inertia_kg_m2 = inertia.trace() / static_cast<double>(inertia.rows());

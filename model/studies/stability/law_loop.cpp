@@ -8,7 +8,6 @@
 #include <cmath>
 #include <complex>
 
-#include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include "studies/stability/linear_loop.hpp"
@@ -61,19 +60,16 @@ LinearLaw in_loop(const LinearLaw& law) {
     if (moved[static_cast<std::size_t>(i)] && shown[static_cast<std::size_t>(i)]) kept.push_back(i);
   }
   const auto size = static_cast<Index>(kept.size());
-  // A row for each state that is kept, a column for each old one.
-  Eigen::MatrixXd keep = Eigen::MatrixXd::Zero(size, n);
-  for (Index i = 0; i < size; ++i) keep(i, kept[static_cast<std::size_t>(i)]) = 1;
   LinearLaw out = law;
-  out.a = keep * law.a * keep.transpose();
-  out.b = keep * law.b;
-  out.c = law.c * keep.transpose();
+  out.a = law.a(kept, kept);
+  out.b = law.b(kept, Eigen::all);
+  out.c = law.c(Eigen::all, kept);
   out.taps.clear();
   for (const LinearLaw::Tap& t : law.taps) {
     const auto at = std::find(kept.begin(), kept.end(), t.from);
     if (at == kept.end()) continue;
     Eigen::VectorXd to(size + axes);
-    to << keep * t.to.head(n), t.to.tail(axes);
+    to << t.to(kept), t.to.tail(axes);
     if (!to.isZero(0)) out.taps.push_back({at - kept.begin(), t.runs, to});
   }
   return out;
@@ -84,13 +80,13 @@ Eigen::MatrixXcd torque_per_angle(const LinearLaw& law, double period_s, double 
   using Matrix = Eigen::MatrixXcd;
   const Index n = law.a.rows(), axes = law.axes();
   const Complex rate(0, 2 * 3.141592653589793 * hz), z = std::exp(rate * period_s);
-  // Of angles that swing with this frequency, and their velocities.
-  const Matrix own = Matrix::Identity(axes, axes);
-  Matrix u = Matrix::Zero(law.d.cols(), axes);
-  u.topRows(axes) = own;
-  u.middleRows(axes, axes) = rate * own;
-  for (Index from = 3 * axes; from < u.rows(); from += axes) u.middleRows(from, axes) = own;
-  Matrix nm_rad = law.d.cast<Complex>() * u;
+  // Of angles that swing with this frequency, of their velocities, and of what the host samples.
+  const auto swung = [&](const Eigen::MatrixXd& of) {
+    Matrix sum = of.leftCols(axes) + rate * of.middleCols(axes, axes);
+    for (Index from = 3 * axes; from < of.cols(); from += axes) sum += of.middleCols(from, axes);
+    return sum;
+  };
+  const Matrix nm_rad = swung(law.d);
   if (n == 0) return nm_rad;
   Matrix of_z = z * Matrix::Identity(n, n) - law.a.cast<Complex>();
   Matrix shows = law.c.cast<Complex>();
@@ -99,7 +95,7 @@ Eigen::MatrixXcd torque_per_angle(const LinearLaw& law, double period_s, double 
     of_z.col(t.from) -= late * t.to.head(n);
     shows.col(t.from) += late * t.to.tail(axes);
   }
-  return nm_rad + shows * of_z.partialPivLu().solve(law.b.cast<Complex>() * u);
+  return nm_rad + shows.lazyProduct(solved(of_z, swung(law.b)));
 }
 
 Steepness steepness(const LinearLaw& law, double period_s, const Eigen::MatrixXd& per_torque) {
@@ -109,9 +105,11 @@ Steepness steepness(const LinearLaw& law, double period_s, const Eigen::MatrixXd
     if (hz == 50.0) {
       const Eigen::MatrixXd spring = -nm_rad.real();
       out.spring_nm_rad = eigenvalues(spring).real().maxCoeff();
-      out.fastest = eigenvalues(per_torque * spring).real().maxCoeff();
+      out.fastest = eigenvalues(per_torque.lazyProduct(spring)).real().maxCoeff();
     }
-    out.most_nm_rad = std::max(out.most_nm_rad, nm_rad.jacobiSvd().singularValues()[0]);
+    // It is square: nothing comes before the SVD.
+    const Eigen::JacobiSVD<Eigen::MatrixXcd, Eigen::NoQRPreconditioner> svd(nm_rad);
+    out.most_nm_rad = std::max(out.most_nm_rad, svd.singularValues()[0]);
   }
   return out;
 }

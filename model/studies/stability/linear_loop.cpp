@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 namespace feltgate::stability {
 
@@ -312,6 +313,21 @@ std::vector<Pole> dominant_poles(
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
+}
+
+Eigen::VectorXd dominant_eigenvector(const Eigen::MatrixXd& matrix) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
+  Eigen::Index best = 0;
+  solver.eigenvalues().real().maxCoeff(&best);
+  return solver.eigenvectors().col(best).real();
+}
+
+Eigen::MatrixXcd solved(const Eigen::MatrixXcd& matrix, const Eigen::MatrixXcd& right) {
+  return matrix.partialPivLu().solve(right);
+}
+
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) {
+  return matrix.inverse();
 }
 
 Eigen::MatrixXd matrix_exp_minus_one(const Eigen::MatrixXd& a, double t) {

@@ -129,11 +129,17 @@ double actuator_delay_s(const LoopModel& model, int scene_ticks);
 /// Nm/rad. Back-EMF compensation and observer are in it, the winding's lag is not.
 double free_impedance_nm_rad(const LoopModel& model, double rad_s);
 
-// Eigenvalues and exponential of a real matrix, in one source: Eigen's solver takes the compiler
-// long.
+// Matrices of a few numbers, in one source: what Eigen has for large ones takes the compiler
+// seconds, its products too, but lazyProduct().
 
 /// All eigenvalues of a square matrix, in no order.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+/// The real part of the eigenvector whose eigenvalue has the largest real part.
+Eigen::VectorXd dominant_eigenvector(const Eigen::MatrixXd& matrix);
+
+/// The x of matrix * x = right; not finite where the matrix is singular.
+Eigen::MatrixXcd solved(const Eigen::MatrixXcd& matrix, const Eigen::MatrixXcd& right);
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
 
 /// exp(a*t) - 1 of a square matrix `a` and a time t >= 0 in the inverse of its unit, by a Taylor
 /// series and doubling, so that small results keep their digits.

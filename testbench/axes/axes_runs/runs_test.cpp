@@ -20,7 +20,7 @@ namespace {
 template <int N>
 void random_programs(std::uint64_t seed, int programs) {
   Random random(seed);
-  std::int64_t done = 0, whole = 0, calm = 0, ticks = 0;
+  std::int64_t done = 0, whole = 0;
   for (int k = 0; k < programs; ++k) {
     auto b = std::make_unique<Both<N>>();
     const int length = 1 + static_cast<int>(random.below(random.coin() ? 8 : 30));
@@ -44,13 +44,9 @@ void random_programs(std::uint64_t seed, int programs) {
     live<N>(*b, random, 250, true);
     done += b->done;
     whole += b->whole;
-    calm += b->calm;
-    ticks += b->ticks;
   }
   INFO("clocks " << done << ", run by run " << whole);
   CHECK(whole > done / 10);
-  CHECK(calm > ticks / 200);
-  CHECK(calm < ticks);
 }
 
 }  // namespace
@@ -158,7 +154,6 @@ TEST_CASE("axes by runs: calm until a torque is too old", "[few]") {
       b.arm(D::S::law);
       REQUIRE(b.by_clock.out().axis[0].armed);
       b.run(D::clocks_per_tick - b.by_clock.clock_of_tick());
-      b.asked = FeltgateCore::law_duty_clock - 1;
       for (int k = 0; k < 15; ++k) b.run(D::clocks_per_tick);
       if (divider == 1) {
         CHECK(b.by_clock.out().axis[0].armed);
@@ -170,7 +165,6 @@ TEST_CASE("axes by runs: calm until a torque is too old", "[few]") {
       }
       for (int k = 0; k < 40; ++k) b.run(D::clocks_per_tick);
       CHECK_FALSE(b.by_clock.out().axis[0].armed);
-      CHECK((divider != 1 || b.calm > 20));
     }
   }
 }

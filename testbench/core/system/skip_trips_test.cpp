@@ -300,58 +300,6 @@ TEST_CASE("a stop that goes away while the panel asks to arm") {
   }
 }
 
-TEST_CASE("calm clocks close no gates, whatever the limit of the speed") {
-  test::CoreOf<Lever> core;
-  CoreIn in;
-  const auto to_next_tick = [](test::CoreOf<Lever>& c, const CoreIn& held) {
-    do c.clock(held);
-    while (c.clock_of_tick() != 0);
-  };
-  const auto write = [&](test::CoreOf<Lever>& c, int address, std::uint32_t word) {
-    CoreIn strobe = in;
-    strobe.reg_addr = static_cast<std::uint16_t>(address);
-    strobe.reg_wdata = word;
-    strobe.reg_write = true;
-    c.clock(strobe);
-    to_next_tick(c, in);
-  };
-  const auto control =
-      static_cast<std::uint32_t>(Lever::control_reset) | 1u << Lever::C::control_host;
-  for (int k = 0; k < 4; ++k) to_next_tick(core, in);
-  write(core, Lever::A::self_test_pulse, 0);
-  write(core, Lever::A::overspeed, 0x7fffffff);
-  write(core, Lever::C::control, control);
-  write(core, Lever::C::control, control | 1u << Lever::C::control_arm);
-  to_next_tick(core, in);
-  REQUIRE(core.out().gates_enable);
-  std::int64_t calm = 0, trips = 0;
-  std::uint32_t phase = 0;
-  for (int tick = 0; tick < 12'000; ++tick) {
-    const int speed = tick / 400 % 5;  // faster and faster, a rest, and the other way
-    const bool moves = speed != 4 && tick % (60 >> speed) == 0;
-    if (moves) phase += tick / 2000 % 2 == 0 ? 1u : 3u;
-    in.encoder = {(phase & 2u) != 0, ((phase & 1u) != 0) != ((phase & 2u) != 0), false};
-    for (const std::int64_t off : {-40, -1, 0, 1, 40}) {
-      const std::int64_t size =
-          core.out().velocity < 0 ? -core.out().velocity : core.out().velocity;
-      test::CoreOf<Lever> tried = core;
-      write(tried, Lever::A::overspeed,
-            static_cast<std::uint32_t>(size + off < 0 ? 0 : size + off));
-      if (!tried.out().gates_enable) continue;
-      const int until_duty = tried.duty_clock() - 1;
-      const bool said = tried.calm(in, until_duty);
-      for (int k = 0; k < until_duty; ++k) tried.clock(in);
-      calm += said;
-      trips += !tried.out().gates_enable;
-      REQUIRE_FALSE((said && !tried.out().gates_enable));
-    }
-    to_next_tick(core, in);
-  }
-  CAPTURE(calm, trips);
-  CHECK(calm > 1000);
-  CHECK(trips > 1000);
-}
-
 TEST_CASE("every fault trips in the same clock from event to event") {
   test::Met met;
   for (const std::uint32_t longest : {9u, 60u, 3000u}) {
@@ -369,8 +317,7 @@ TEST_CASE("every fault trips in the same clock from event to event") {
   }
   CHECK(met.resets > 20);
   CHECK(met.flips > 200);
-  // "Not calm" is always right, so how often it is said is all that there is to check of it.
-  CAPTURE(met.armed_starts, met.armed_calm, met.idle_starts, met.idle_calm);
-  CHECK(met.armed_calm * 10 > met.armed_starts);
-  CHECK(met.idle_calm * 10 > met.idle_starts);
+  CAPTURE(met.ticks, met.whole, met.settled);
+  CHECK(met.whole * 10 > met.ticks);
+  CHECK(met.settled * 10 > met.ticks);
 }

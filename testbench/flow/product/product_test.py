@@ -103,6 +103,18 @@ class Product(Scratch):
         self.assertEqual((made / "rtl/parameters.mem").read_text(), lever)
         self.assertFalse((made / "rtl/stale.sv").exists())
 
+    def test_board_of_a_design_by_mt(self):
+        """It has the estimator of the design, and what that is made of."""
+        own = (ROOT / "rtl/designs/lever.toml").read_text()
+        own, found = re.subn(r"m1 = 767\nn = 1 .*", 'estimator = "mt"\nwindow_s = 386e-6\ncycles = 16', own)
+        self.assertEqual(found, 1)
+        (self.folder / "mt.toml").write_text(own)
+        self.board("--design", "mt.toml")
+        made = self.folder / "de0_nano_mt"
+        by_mt = (ROOT / "rtl/options/mt/velocity_estimator.sv").read_text()
+        self.assertEqual((made / "rtl/velocity_estimator.sv").read_text(), by_mt)
+        self.assertIn("SYSTEMVERILOG_FILE rtl/span_meter.sv\n", (made / "de0_nano.qsf").read_text())
+
     def test_board_refused(self):
         own = (ROOT / "rtl/designs/lever.toml").read_text()
         fast = own.replace("clock_hz = 50_000_000", "clock_hz = 100_000_000")

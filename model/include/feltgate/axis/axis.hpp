@@ -110,7 +110,7 @@ class Axis {
     const Tick tick = this->tick();
     const Safety::In to_safety = this->to_safety(in, tick);
     const Safe safe = q_.safety.see(laws, to_safety);
-    const Values values = this->values(in, safe);
+    const Values values = q_.host.snapshot.goes() ? this->values(in, safe) : Values{};
     const int scene = q_.host.scene;
     const bool renders = safe.armed && !safe.testing && !q_.testing;
     const bool sums = q_.velocity.valid(laws.velocity.latency + laws.scene.summed);
@@ -164,7 +164,7 @@ class Axis {
   [[gnu::always_inline]] bool ordinary(const In& in) const {
     const bool open = q_.safety.arming.open();
     return (rests_ ? in.pins.stop == stop_ : rests(in.pins.stop)) && !in.pins.reg_write &&
-           !in.pins.set_zero && !in.bridge.measured && in.position.why == 0 && in.bridge.why == 0 &&
+           !in.pins.set_zero && in.position.why == 0 && in.bridge.why == 0 &&
            !(open && (in.pins.axis_fault || (law_selected() && in.pins.law_late))) &&
            duty_clock() + Snapshot::words - Snapshot::early + 1 < laws_->clocks_per_tick;
   }
@@ -184,7 +184,9 @@ class Axis {
     // What can trip.
     const auto heat = laws.heat.tick(p, torque.voltage, q_.velocity.state.velocity);
     std::int64_t heat_sum = safety.heat_sum;
-    const bool hot = laws.heat.heat(heat_sum, p, armed, heat.current);
+    const bool hot =
+        laws.heat.heat(heat_sum, p, armed,
+                       in.bridge.measured ? laws.heat.measured(in.bridge.current) : heat.current);
     const auto travel = static_cast<std::int16_t>(in.position.travel);
     std::optional<SpanMeter::State> spans;
     if (laws.spans.used) {
@@ -221,7 +223,7 @@ class Axis {
     safety.overspeed.tick() = fast;
     safety.polarity = polarity.next;
     auto& observer = q_.observer.tick();
-    observer = laws.observer.tick(observer, p, armed, torque.current, speed.velocity);
+    observer = laws.observer.tick(observer, p, armed, motor_current(in), speed.velocity);
     const bool renders = armed && !tests && !in.pins.axis_testing;
     auto& scene = q_.scene.tick();
     scene = laws.scene.tick(scene, p, renders, q_.host.scene,
@@ -251,6 +253,11 @@ class Axis {
     stop_ = in.pins.stop;
     ++q_.ticks.count;
   }
+  /// Back to the registers of the tick's beginning.
+  void undo(const Blocks& begin) {
+    q_ = begin;
+    rests_ = false;
+  }
   /// The gates may close before this tick ends, if the encoder rests. It may be true where nothing
   /// happens.
   bool may_trip(const In& in) const {
@@ -279,6 +286,7 @@ class Axis {
   std::uint32_t parameter(int address) const { return params_.word(address); }
   /// Fault injection.
   void flip(int address, int bit) {
+    q_.host.read_data(params_, bank_);  // what was read before
     params_.flip(address, bit);
     rests_ = false;
   }
@@ -356,11 +364,11 @@ class Axis {
   }
 
  private:
-  /// A tick begins, and no register is amid something.
+  /// A tick begins, and no block is in the middle of an operation.
   bool rests(bool stop) const {
     return q_.ticks.at == 0 && q_.ticks.count != 0 && params_.whole &&
-           q_.host.registers.rests(false, false) && q_.host.snapshot.rests() &&
-           q_.safety.rests(stop);
+           !q_.host.params.word_error() && q_.host.registers.rests(false, false) &&
+           q_.host.snapshot.rests() && q_.safety.rests(stop);
   }
   Safety::In to_safety(const In& in, const Tick& tick) const {
     return {tick,

@@ -16,7 +16,10 @@ class Heartbeat {
   explicit Heartbeat(const Design& d) : ticks_(static_cast<std::uint32_t>(d["HEARTBEAT"])) {}
   bool out() const { return out_; }
   void clock(const Tick& tick, int first_fault) {
-    if (tick.last && first_fault == 0) out_ = (tick.count & ticks_) != 0;
+    if (tick.last) end_tick(tick.count, first_fault);
+  }
+  void end_tick(std::uint32_t count, int first_fault) {
+    if (first_fault == 0) out_ = (count & ticks_) != 0;
   }
   void reset() { out_ = false; }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// All laws of an axis with the constants of a design, and the numbers of its clock blocks. It does
-// not change while an axis runs. docs/architecture.md
+// All laws of an axis with the constants of a design, and the constants of the blocks that act in
+// each clock. It does not change while an axis runs. docs/architecture.md
 #pragma once
 
 #include "feltgate/axis/arming.hpp"

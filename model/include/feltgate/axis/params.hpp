@@ -64,13 +64,13 @@ class Params {
              int address, std::uint32_t data, int read_addr) {
     read(m, read_addr);
     // Into its register: a word that is written, or the one that was fetched.
-    const auto fetched = static_cast<std::uint32_t>(fetch_);
-    error_ = fetched_ && fetch_ != ParamsMemory::checked(fetched);
     if (write) {
       load(m, formats, address, data);
-    } else if (fetched_ && !error_) {
-      load(m, formats, place_, fetched);
+    } else if (good_) {
+      load(m, formats, good_place_, word_);
     }
+    take();
+    good_ = good_ && !write;
     fetched_ = warm_ && !write;
     warm_ = true;
     fetch(m, clock, scene);
@@ -82,13 +82,16 @@ class Params {
   }
   /// All clocks of a tick without a write, if RAM and registers agree; then settle().
   void tick(int clocks) { next_ = (next_ + clocks - 5) & 63; }
-  /// The last fetch and reads of a tick as a whole.
+  /// The last fetches and reads of a tick as a whole.
   void settle(const ParamsMemory& m, int read_addr) {
-    next_ = (next_ - 1) & 63;
+    next_ = (next_ - 2) & 63;
+    fetched_ = true;
+    fetch(m, 5, 0);
+    take();
     fetch(m, 5, 0);
     read(m, read_addr);
     read(m, read_addr);
-    fetched_ = warm_ = true;
+    warm_ = true;
   }
   /// The host's port has no reset.
   void read(const ParamsMemory& m, int read_addr) {
@@ -98,10 +101,17 @@ class Params {
   /// After a reset; the port goes on.
   void reset() {
     place_ = next_ = 0;
-    fetched_ = warm_ = error_ = false;
+    fetched_ = warm_ = good_ = error_ = false;
   }
 
  private:
+  /// Of the word that was fetched.
+  void take() {
+    word_ = static_cast<std::uint32_t>(fetch_);
+    good_place_ = place_;
+    error_ = fetched_ && fetch_ != ParamsMemory::checked(word_);
+    good_ = fetched_ && !error_;
+  }
   void fetch(const ParamsMemory& m, int clock, int scene) {
     const bool of_scene = clock < 5;
     const int place = of_scene ? ParamsMemory::places[clock] : next_;
@@ -123,6 +133,9 @@ class Params {
   int place_ = 0, next_ = 0;
   std::uint64_t fetch_ = 0;
   bool fetched_ = false, warm_ = false, error_ = false;
+  std::uint32_t word_ = 0;  ///< into its register in the next clock, if good_
+  int good_place_ = 0;
+  bool good_ = false;
   std::uint32_t read_ = 0, read_data_ = 0;
 };
 

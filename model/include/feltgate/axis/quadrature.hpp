@@ -24,14 +24,7 @@ class Quadrature {
   const Position& out() const { return out_; }
   Rotor rotor() const { return {}; }
   unsigned lines() const { return 1; }  ///< of an absolute encoder: none is selected
-  void clock(const Pins& pins, const Encoder& e, const Words<std::int64_t>&) {
-    if (e.sample) sample(e.tick_count);
-    decoder_.clock(at(pins.encoder, e));
-    still_ = false;
-    show();
-    out_.trip_channel = e.sample && monitor_.trips();
-    out_.trip_index = e.sample && monitor_.index_trips();
-  }
+  void clock(const Pins& pins, const Encoder& e, const Words<std::int64_t>&) { clock(pins, e); }
   void reset() {
     decoder_.reset();
     monitor_ = EncoderMonitorLaw(edge_bits_, fast_);
@@ -40,56 +33,38 @@ class Quadrature {
     show();
   }
 
-  /// In a tick as a whole with these pins nothing changes but the monitor.
-  bool still(const EncoderPins& pins) const { return still_ && pins == still_pins_; }
-  const Position* tick(std::uint32_t tick_count) {
-    monitor_before_ = monitor_;
-    moved_ = false;
-    sample(tick_count);
-    out_.moved = monitor_.moved();
-    out_.chatters = monitor_.chatters();
-    return monitor_.trips() || monitor_.index_trips() ? nullptr : &out_;
-  }
-  /// A tick of `clocks` clocks as a whole, with these pins: the position that is sampled in it.
-  /// Null where something out of the ordinary happens: a trip, an index, a wrong edge.
-  const Position* tick(const Pins& pins, const Encoder& e, int sample_clock, int clocks) {
+  /// Up to `clocks` clocks without a sample. It stops after a clock that is out of the ordinary,
+  /// with a wrong edge or an index, and returns the clocks passed; `ordinary`: there was none.
+  int pass(const Pins& pins, const Encoder& e, int clocks, bool& ordinary) {
+    if (still(pins.encoder)) return clocks;
     const QuadDecoder::In in = at(pins.encoder, e);
-    if (decoder_.settled(in)) {
-      still_pins_ = pins.encoder;
-      still_ = true;
-      return tick(e.tick_count);
-    }
-    monitor_before_ = monitor_;
-    decoder_before_ = decoder_;
-    moved_ = true;
-    still_ = false;
     int c = 0;
-    while (c < sample_clock && !decoder_.settled(in)) {
-      if (!edge(in)) return nullptr;
+    while (c < clocks && !decoder_.settled(in) && ordinary) {
+      ordinary = edge(in);
       ++c;
     }
-    sample(e.tick_count);
-    if (monitor_.trips() || monitor_.index_trips()) return nullptr;
-    show();
-    sampled_ = out_;
-    while (c < clocks && !decoder_.settled(in)) {
-      if (!edge(in)) return nullptr;
-      ++c;
-    }
-    show();
+    still_ = ordinary && decoder_.settled(in);
     still_pins_ = pins.encoder;
-    still_ = c < clocks;
-    return &sampled_;
-  }
-  /// Takes a tick() back.
-  void undo() {
-    monitor_ = monitor_before_;
-    if (moved_) {
-      decoder_ = decoder_before_;
-      still_ = false;
-    }
     show();
+    return ordinary ? clocks : c;
   }
+  /// The clock of the sample; whether it was an ordinary one, without a trip.
+  bool take(const Pins& pins, const Encoder& e) {
+    if (still(pins.encoder)) {
+      sample(e.tick_count);
+      out_.moved = monitor_.moved();
+      out_.chatters = monitor_.chatters();
+      out_.trip_channel = monitor_.trips();
+      out_.trip_index = monitor_.index_trips();
+    } else {
+      const QuadDecoder::Out before = decoder_.out();
+      clock(pins, e);
+      if (!ordinary(before)) return false;
+    }
+    return !out_.trip_channel && !out_.trip_index;
+  }
+  /// In a tick in which nothing is written, with these pins nothing changes but the monitor.
+  bool still(const EncoderPins& pins) const { return still_ && pins == still_pins_; }
   /// Ticks with these pins are as the last one, and do not trip.
   bool calm(const Pins& pins, const Encoder& e) const {
     return decoder_.settled(at(pins.encoder, e)) && !monitor_.chatters() &&
@@ -97,6 +72,14 @@ class Quadrature {
   }
 
  private:
+  void clock(const Pins& pins, const Encoder& e) {
+    if (e.sample) sample(e.tick_count);
+    decoder_.clock(at(pins.encoder, e));
+    still_ = false;
+    show();
+    out_.trip_channel = e.sample && monitor_.trips();
+    out_.trip_index = e.sample && monitor_.index_trips();
+  }
   void sample(std::uint32_t tick_count) {
     const QuadDecoder::Out& o = decoder_.out();
     monitor_.tick(o.levels, tick_count, o.index_wrong, o.count);
@@ -118,6 +101,9 @@ class Quadrature {
   bool edge(const QuadDecoder::In& in) {
     const QuadDecoder::Out before = decoder_.out();
     decoder_.clock(in);
+    return ordinary(before);
+  }
+  bool ordinary(const QuadDecoder::Out& before) const {
     const QuadDecoder::Out& now = decoder_.out();
     return !now.illegal && now.error_count == before.error_count &&
            now.rejected_count == before.rejected_count &&
@@ -140,12 +126,9 @@ class Quadrature {
   int edge_bits_;
   bool fast_;
   EncoderMonitorLaw monitor_;
-  Position out_, sampled_;
-  // Of the tick that may be taken back; and with these pins nothing moves but the monitor.
-  QuadDecoder decoder_before_ = decoder_;
-  EncoderMonitorLaw monitor_before_ = monitor_;
-  EncoderPins still_pins_;
-  bool still_ = false, moved_ = false;
+  Position out_;
+  EncoderPins still_pins_;  ///< see still()
+  bool still_ = false;
 };
 
 }  // namespace feltgate::axis

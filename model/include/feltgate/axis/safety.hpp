@@ -13,29 +13,9 @@
 #include "feltgate/axis/signals.hpp"
 #include "feltgate/axis/stop_latch.hpp"
 #include "feltgate/axis/watchdog.hpp"
+#include "feltgate/generated/causes.hpp"
 
 namespace feltgate::axis {
-
-/// Numbers of the causes.
-namespace fault {
-enum Number : unsigned {
-  encoder = 1,
-  speed,
-  polarity,
-  i2t,
-  watchdog,
-  stop,
-  self_test,
-  channel,
-  tick,
-  index,
-  word,
-  jump,
-  engine,
-  axis,
-  current
-};
-}  // namespace fault
 
 struct Safety {
   using P = Words<std::int64_t>;
@@ -66,22 +46,22 @@ struct Safety {
   std::uint16_t trips(const Laws& laws, const P& p, const In& in) const {
     const bool open = arming.open();
     std::uint32_t t = 0;
-    const auto trip = [&t](unsigned cause, bool on) { t |= (on ? 1U : 0U) << cause; };
-    trip(fault::encoder, errors.trip(in.position.illegal) || (open && in.position.why != 0));
-    trip(fault::speed, overspeed.at(0) && overspeed.state.too_fast);
-    trip(fault::polarity, after_scene && judged(laws, p, in).trip);
-    trip(fault::i2t, heat.at(laws.heat.summed) && heat_sum >= p.i2t_budget);
-    trip(fault::watchdog, after_duty && watchdog.trip(open));
-    trip(fault::stop, stop.trip(open) || in.commands.host_stop);
-    trip(fault::self_test, after_duty && self_test.failed());
-    trip(fault::channel, in.position.trip_channel);
-    trip(fault::tick, ticks.trip(in.bridge.period_start, laws.most_periods));
-    trip(fault::index, in.position.trip_index);
-    trip(fault::word, in.word || in.position.trip_flip);
-    trip(fault::jump, overspeed.at(0) && overspeed.state.jumped);
-    trip(fault::engine, in.engine && open);
-    trip(fault::axis, in.pins.axis_fault && open);
-    trip(fault::current, open && in.bridge.why != 0);
+    const auto trip = [&t](Fault cause, bool on) { t |= on ? fault_bit(cause) : 0U; };
+    trip(Fault::encoder, errors.trip(in.position.illegal) || (open && in.position.why != 0));
+    trip(Fault::speed, overspeed.at(0) && overspeed.state.too_fast);
+    trip(Fault::polarity, after_scene && judged(laws, p, in).trip);
+    trip(Fault::i2t, heat.at(laws.heat.summed) && heat_sum >= p.i2t_budget);
+    trip(Fault::watchdog, after_duty && watchdog.trip(open));
+    trip(Fault::stop, stop.trip(open) || in.commands.host_stop);
+    trip(Fault::self_test, after_duty && self_test.failed());
+    trip(Fault::channel, in.position.trip_channel);
+    trip(Fault::tick, ticks.trip(in.bridge.period_start, laws.most_periods));
+    trip(Fault::index, in.position.trip_index);
+    trip(Fault::word, in.word || in.position.trip_flip);
+    trip(Fault::jump, overspeed.at(0) && overspeed.state.jumped);
+    trip(Fault::engine, in.engine && open);
+    trip(Fault::axis, in.pins.axis_fault && open);
+    trip(Fault::current, open && in.bridge.why != 0);
     return static_cast<std::uint16_t>(t);
   }
   /// The top bit of a sensor's reasons, no first reading yet, lets a request wait; every other
@@ -167,7 +147,8 @@ struct Safety {
     after_scene = in.tick.scene;
     after_duty = in.tick.duty;
   }
-  /// Heat, speed, polarity or watchdog may trip in this tick.
+  /// Whether a cause that Axis::tick() finds may trip in this tick: heat, speed, polarity,
+  /// watchdog.
   bool near(const Laws& laws, const P& p, std::int64_t velocity) const {
     return heat_sum >= p.i2t_budget || Fixed::beyond(velocity, p.overspeed) ||
            laws.polarity.near(polarity, p) || watchdog.near(p);

@@ -54,7 +54,7 @@ struct Scene {
   /// After the velocity: it takes the torque of a program, and its own is new. A charge's divider
   /// has started with the position.
   static constexpr int summed = 2, usual_latency = 4;
-  int latency(int scene) const { return is_charge(scene) && has(scene) ? 21 : usual_latency; }
+  int latency(int scene) const { return is_charge(scene) && has(scene) ? 22 : usual_latency; }
 
   /// A term with its guard bits; of what is dropped it keeps a trace, for rounding to even.
   T single(T product, const Exponent& to_part) const {
@@ -112,7 +112,7 @@ struct Scene {
     return next;
   }
   template <class At>
-  static void show(const At&, const State&, State&) {}  // it holds from start on
+  static void show(const At&, const State&, State&) {}  // nothing is shown later
   T charge(const Words<T>& p, bool attract, T distance) const {
     const T whole = N::scale(distance, -distance_f);
     T torque = 0;

@@ -23,12 +23,14 @@ class Snapshot {
   SnapshotWord word;
   std::uint32_t read_data() const { return read_data_; }
 
+  /// A word is taken in this clock.
+  bool goes() const { return next_ < words && (next_ < early || done_); }
   /// `begin`: tau_ref is new. `end`: duty is new.
   void clock(Memory& m, bool tick, bool begin, bool end, bool freeze, bool thaw, const Values& v,
              int read_addr) {
     read(m, read_addr);
     if (word.valid) m[place(bank_, word.place)] = word.data;
-    const bool goes = next_ < words && (next_ < early || done_);
+    const bool goes = this->goes();
     word.valid = goes;
     if (goes) word.place = places[next_], word.data = value(next_, v);
     next_ = begin ? 0 : next_ + goes;

@@ -43,9 +43,11 @@ module words_proof (
   (* hierconn *) wire [35:0] \u_dut.read_q ;
   (* hierconn *) wire [8:0] \u_dut.address ;
   (* hierconn *) wire [8:0] \u_dut.place ;
-  logic [8:0] place_q;  // of the word that was fetched
-  always_ff @(posedge clk_i) place_q <= \u_dut.place ;
+  logic [8:0] place_q, place_q2;  // of the word that was fetched, and of the one before
+  always_ff @(posedge clk_i) {place_q2, place_q} <= {place_q, \u_dut.place };
   (* hierconn *) wire \u_dut.fetched_q ;
+  (* hierconn *) wire \u_dut.good_q ;
+  (* hierconn *) wire [31:0] \u_dut.fetched_word_q ;
 
   // Check bit k is the parity of bits k, k + 4, ... of the word, inverted for k = 0 and 2.
   function automatic logic [3:0] check_of(input logic [31:0] data);
@@ -78,7 +80,7 @@ module words_proof (
   // What the RAM returns.
   logic fetched_q, flipped_q, seen_q, read_q, read_q2, whole_q, lands_q;
   logic [1:0] flip_q;
-  logic [8:0] fetch_q;
+  logic [8:0] fetch_q, fetch_q2;
   logic [31:0] read_value_q, read_value_q2, fetch_value_q;
   wire [35:0] fetched = \u_dut.fetch_q ;
   initial {broke_q, read_q, read_q2} = 3'b000;
@@ -86,7 +88,7 @@ module words_proof (
     word_q <= word_q;
     if (lands && address_i == word_q) value_q <= data_i;
     fetched_q     <= \u_dut.address == word_q && !lands;
-    fetch_q       <= \u_dut.address ;
+    {fetch_q2, fetch_q} <= {fetch_q, \u_dut.address };
     fetch_value_q <= value_q;
     flipped_q     <= breaks_i && !lands;
     flip_q        <= broken_i;
@@ -110,31 +112,37 @@ module words_proof (
     if (past_ok_q && fetched_q && !flipped_q) assume (fetched[31:0] == fetch_value_q);
     if (past_ok_q && read_q) assume ( \u_dut.read_q [31:0] == read_value_q);
   end
-  logic [4:0] place;  // of the word that is fetched for the scene
-  always_comb begin
-    case (clock)
-      6'd1:    place = 5'd1;
-      6'd2:    place = 5'd2;
-      6'd3:    place = 5'd3;
-      6'd4:    place = 5'd6;
-      default: place = 5'd10;
+  // Place of the word that is fetched for the scene in each clock of a tick.
+  function automatic logic [4:0] scene_place(input logic [cfg::TICK_W-1:0] at);
+    case (at)
+      6'd0:    scene_place = 5'd1;
+      6'd1:    scene_place = 5'd2;
+      6'd2:    scene_place = 5'd3;
+      6'd3:    scene_place = 5'd6;
+      default: scene_place = 5'd10;
     endcase
-  end
+  endfunction
+  logic [4:0] place, place2;  // of the clock before, and of the one before that
+  assign place  = scene_place(clock - 6'd1);
+  assign place2 = scene_place(clock - 6'd2);
   always_comb begin
     if (past_ok_q) begin
       blocks_get_the_word: assert (broke_q || !common_stale);
     end
     if (past_ok_q && rst_ni) begin
-      scene_gets_the_word: assert (broke_q || !whole_q || clock < cfg::TICK_W'(6) || !scene_stale);
+      scene_gets_the_word: assert (broke_q || !whole_q || clock < cfg::TICK_W'(7) || !scene_stale);
       inside_place: assert (!whole_q || clock == '0 || clock > cfg::TICK_W'(5) ||
                             (place_q == {4'd15, place} && \u_dut.fetched_q && fetch_q == {scene, place}));
+      inside_good: assert (broke_q || !whole_q || clock < 6'd2 || clock > 6'd6 ||
+                           (place_q2 == {4'd15, place2} && \u_dut.good_q && fetch_q2 == {scene, place2}));
+      inside_word: assert (broke_q || !\u_dut.good_q || fetch_q2 != word_q || \u_dut.fetched_word_q == value_q);
       inside_loaded: assert (broke_q || !whole_q || clock == '0 || !scene_stale ||
-          !((word_q[4:0] == 5'd1 && clock > 1) || (word_q[4:0] == 5'd2 && clock > 2) || (word_q[4:0] == 5'd3 && clock > 3) ||
-            (word_q[4:0] == 5'd6 && clock > 4)));
+          !((word_q[4:0] == 5'd1 && clock > 2) || (word_q[4:0] == 5'd2 && clock > 3) || (word_q[4:0] == 5'd3 && clock > 4) ||
+            (word_q[4:0] == 5'd6 && clock > 5)));
       inside_clock: assert (clock < cfg::TICK_W'(cfg::CLOCKS_PER_TICK) && tick == (clock == cfg::TICK_W'(cfg::CLOCKS_PER_TICK - 1)));
       broken_bit_is_seen: assert (word_error == seen_q);
       reads_the_word: assert (!read_q2 || read_data == read_value_q2);
-      loads: cover (clock == 6'd6 && p.scene_10 == 21'd5);
+      loads: cover (clock == 6'd7 && p.scene_10 == 21'd5);
     end
   end
 endmodule

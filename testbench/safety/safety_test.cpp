@@ -36,7 +36,9 @@ struct Twin : BlockTwin<ports::safety> {
     in.tick = {at,       at == 2,  at == 7,
                at == 15, at == 11, at == 14,
                at == 27, last,     calm ? ticks : held.tick.count};
-    in.trips &= 1U << fault::word | 1U << fault::engine;
+    constexpr unsigned outside =
+        feltgate::fault_bit(feltgate::Fault::word) | feltgate::fault_bit(feltgate::Fault::engine);
+    in.trips = static_cast<std::uint16_t>(in.trips & outside);
     auto& c = in.commands;
     c.host = host;
     c.kick = c.kick && last;
@@ -69,8 +71,8 @@ struct Twin : BlockTwin<ports::safety> {
              position,
              bridge,
              pins,
-             (in.trips >> fault::word & 1) != 0,
-             (in.trips >> fault::engine & 1) != 0,
+             (in.trips & feltgate::fault_bit(feltgate::Fault::word)) != 0,
+             (in.trips & feltgate::fault_bit(feltgate::Fault::engine)) != 0,
              in.velocity,
              in.tau_ref,
              in.current,

@@ -142,8 +142,11 @@ class LinkPort {
     if (state_ == State::bytes) return true;
     return state_ == State::idle && !r.valid && status_ == r.write && address_ == r.address;
   }
-  /// waits(), and no request is there or replied to.
-  bool rests(const In& in) const { return state_ == State::idle && !in.request.valid && waits(in); }
+  /// Whether nothing is asked of the register port before the next request comes.
+  bool rests(const In& in) const {
+    const bool asks = state_ != State::idle && (state_ != State::bytes || left_ != 0);
+    return !asks && !in.request.valid && !in.clear_faults && !clear_;
+  }
 
  private:
   enum class State : std::uint8_t { idle, wait, read, bytes };

@@ -209,10 +209,6 @@ namespace feltgate::design {
 std::string text_for_scenes(const std::string& path, const std::set<std::string>& laws,
                             const std::string& comment);
 
-/// RTL blocks of scenes that a design with these laws does not contain.
-std::vector<std::string> blocks_left_out(const std::set<std::string>& laws,
-                                         const RegisterMap& registers);
-
 }  // namespace feltgate::design
 
 // Computes the value of every parameter from a design.

@@ -524,11 +524,6 @@ class FeltgateCore {
       out_.current = bridge.out().current;
       out_.current_clock = bridge.modulator_clock();
     }
-    if constexpr (std::is_same_v<Bridge, axis::HBridgeCurrent> ||
-                  std::is_same_v<Bridge, axis::ThreePhaseCurrent>) {
-      out_.current = bridge.out().current;
-      out_.current_clock = bridge.modulator_clock();
-    }
   }
   void show_measured() {
     out_.position = whole_.values.position;

@@ -142,10 +142,12 @@ class LinkPort {
     if (state_ == State::bytes) return true;
     return state_ == State::idle && !r.valid && status_ == r.write && address_ == r.address;
   }
-  /// Whether nothing is asked of the register port before the next request comes.
+  /// Whether the register port is not used for at least the time of a byte on the line, unless a
+  /// request comes. A reply reads its next word after the four bytes of the last one.
   bool rests(const In& in) const {
-    const bool asks = state_ != State::idle && (state_ != State::bytes || left_ != 0);
-    return !asks && !in.request.valid && !in.clear_faults && !clear_;
+    const bool reads =
+        state_ != State::idle && (state_ != State::bytes || (left_ != 0 && byte_ == 3));
+    return !reads && !in.request.valid && !in.clear_faults && !clear_;
   }
 
  private:

@@ -85,8 +85,7 @@ class LinkedCore {
   /// Advances `clocks` clocks with the pins held, except uart_rx, which carries the bytes of
   /// send(). It is fast while nothing happens. `on_snapshot()` is called whenever out() holds a
   /// valid snapshot. out()'s `reg_rdata` is unspecified.
-  template <class OnSnapshot>
-  void run(In in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+  void run(In in, std::int64_t clocks, Callback<> on_snapshot) {
     while (clocks > 0) {
       in.uart_rx = line_.level();
       const std::int64_t quiet = stretch(std::min(quiet_clocks(in), clocks));
@@ -251,8 +250,7 @@ class LinkedCore {
     return !linked::pulses(in) && port_.rests(port_in(in)) && rx_.clocks_to_byte() > clocks;
   }
   /// Such clocks, within a tick: first the core, then the link with the core's words.
-  template <class OnSnapshot>
-  void pass_apart(In in, int clocks, OnSnapshot&& on_snapshot) {
+  void pass_apart(In in, int clocks, Callback<> on_snapshot) {
     const int from = core_.clock_of_tick(), end = from + clocks;
     run_device(in, port_.peek(port_in(in)), clocks, on_snapshot);
     auto event = events_.cbegin();
@@ -331,18 +329,16 @@ class LinkedCore {
   }
 
   /// Passes a stretch of quiet clocks; of several ticks the last one's words count.
-  template <class OnSnapshot>
   void pass(const In& in, const typename Port::Out& port, std::int64_t clocks,
-            OnSnapshot&& on_snapshot) {
+            Callback<> on_snapshot) {
     const int from = core_.clock_of_tick();
     run_device(in, port, clocks, on_snapshot);
     auto event = events_.cbegin();
     pass_words(port, from, static_cast<int>(from + std::min<std::int64_t>(clocks, tick_clocks_)),
                &event);
   }
-  template <class OnSnapshot>
   void run_device(const In& in, const typename Port::Out& port, std::int64_t clocks,
-                  OnSnapshot&& on_snapshot) {
+                  Callback<> on_snapshot) {
     const int from = core_.clock_of_tick();
     note_words_by_clock();
     const auto at_snapshot = [&] {
@@ -430,5 +426,12 @@ class LinkedCore {
   std::array<std::vector<std::int8_t>, N> given_;
   std::array<int, N> noted_{};  ///< clock of the duty for which they hold
 };
+
+#ifdef FELTGATE_COMPILED_TWIN
+extern template class LinkedCore<1>;
+extern template class LinkedCore<1, true>;
+extern template class LinkedCore<2, true>;
+extern template class LinkedCore<3, true>;
+#endif
 
 }  // namespace feltgate

@@ -31,7 +31,10 @@ target_compile_features(feltgate_twin_parts PUBLIC cxx_std_17)
 target_compile_definitions(feltgate_twin_parts PUBLIC FELTGATE_COMPILED_TWIN)
 target_include_directories(feltgate_twin_parts PUBLIC
   "$<BUILD_INTERFACE:${FELTGATE_ROOT}/model/include>" "$<INSTALL_INTERFACE:include>")
-target_link_libraries(feltgate_model INTERFACE "$<BUILD_INTERFACE:feltgate_twin_parts>")
+# In somebody else's project feltgate::core remains headers.
+if(PROJECT_IS_TOP_LEVEL)
+  target_link_libraries(feltgate_model INTERFACE "$<BUILD_INTERFACE:feltgate_twin_parts>")
+endif()
 
 find_package(Boost 1.74 REQUIRED)
 find_package(fmt 9 QUIET)

@@ -300,13 +300,8 @@ class FeltgateAxes {
   Out out_;
 };
 
-#ifdef FELTGATE_COMPILED_TWIN
-extern template class FeltgateAxes<1>;
-extern template class FeltgateAxes<2>;
-extern template class FeltgateAxes<3>;
-extern template class FeltgateAxes<1, true>;
-extern template class FeltgateAxes<2, true>;
-extern template class FeltgateAxes<3, true>;
-#endif
-
 }  // namespace feltgate
+
+#ifdef FELTGATE_COMPILED_TWIN
+#include "feltgate/compiled_axes.hpp"  // IWYU pragma: export
+#endif

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Functions of FeltgateCore that take the compiler long. A program includes them with
-// feltgate_core.hpp; with FELTGATE_COMPILED_TWIN they are in the library feltgate_twin instead,
+// feltgate_core.hpp; with FELTGATE_COMPILED_TWIN they are in the library feltgate_twin_parts instead,
 // which this repository's programs link. docs/architecture.md
 #pragma once
 

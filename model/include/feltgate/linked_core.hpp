@@ -427,11 +427,8 @@ class LinkedCore {
   std::array<int, N> noted_{};  ///< clock of the duty for which they hold
 };
 
-#ifdef FELTGATE_COMPILED_TWIN
-extern template class LinkedCore<1>;
-extern template class LinkedCore<1, true>;
-extern template class LinkedCore<2, true>;
-extern template class LinkedCore<3, true>;
-#endif
-
 }  // namespace feltgate
+
+#ifdef FELTGATE_COMPILED_TWIN
+#include "feltgate/compiled_linked.hpp"  // IWYU pragma: export
+#endif

@@ -192,7 +192,7 @@ Format coefficient_format(double value, bool is_signed);
 constexpr int coefficient_fraction_max = 48;
 
 /// Clocks from the sampled position to the duty register; of a charge, which divides, more.
-constexpr int latency_clocks = 25, charge_latency_clocks = 42;
+constexpr int latency_clocks = 25, charge_latency_clocks = 43;
 /// A tick is at least so long: two clocks before the sample, the chain of a charge, and the
 /// snapshot's last words.
 constexpr int least_tick_clocks = 50;
@@ -208,10 +208,6 @@ namespace feltgate::design {
 /// Throws config::ConfigError when the design does not build one of the laws.
 std::string text_for_scenes(const std::string& path, const std::set<std::string>& laws,
                             const std::string& comment);
-
-/// RTL blocks of scenes that a design with these laws does not contain.
-std::vector<std::string> blocks_left_out(const std::set<std::string>& laws,
-                                         const RegisterMap& registers);
 
 }  // namespace feltgate::design
 

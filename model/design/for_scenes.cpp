@@ -16,13 +16,6 @@ namespace {
 
 constexpr const char* always = "free";
 
-/// The RTL block of a law: both springs use scene_spring, both charges scene_charge; free has none.
-std::string block_of(const std::string& law) {
-  if (law == always) return {};
-  const std::string kind = law.substr(0, law.find('_'));
-  return "scene_" + (kind == "spring" || kind == "charge" ? kind : law);
-}
-
 }  // namespace
 
 std::string text_for_scenes(const std::string& path, const std::set<std::string>& laws,
@@ -51,17 +44,6 @@ std::string text_for_scenes(const std::string& path, const std::set<std::string>
   for (std::string line; std::getline(lines, line);) out << "# " << line << "\n";
   out << text;
   return out.str();
-}
-
-std::vector<std::string> blocks_left_out(const std::set<std::string>& laws,
-                                         const RegisterMap& registers) {
-  std::set<std::string> kept, gone;
-  for (const std::string& law : laws) kept.insert(block_of(law));
-  for (const Scene& scene : registers.scenes) {
-    const std::string block = block_of(scene.name);
-    if (!block.empty() && kept.count(block) == 0) gone.insert(block);
-  }
-  return {gone.begin(), gone.end()};
 }
 
 }  // namespace feltgate::design

@@ -6,7 +6,7 @@
 //                      |                            |
 //                      +------> scene -> ramp -> torque_law -> duty
 // safety watches it and alone enables the gates; host has the words. Sampled position to duty: 25
-// clocks, of a charge 42. docs/architecture.md
+// clocks, of a charge 43. docs/architecture.md
 
 `default_nettype none
 

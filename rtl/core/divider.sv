@@ -17,7 +17,8 @@ module divider (
 );
   logic [16:0] at;     // clocks since start_i
   logic [31:0] rest_q;
-  logic [16:0] low_q;  // the dividend's bits to come, then the quotient's; the highest says that it saturates
+  // The dividend's unused bits above the quotient's; at the end bit 16 is 1 if the quotient saturates.
+  logic [16:0] low_q;
   logic [32:0] next, difference;
   assign next       = {rest_q, low_q[16]};
   assign difference = next - {1'b0, divisor_i};

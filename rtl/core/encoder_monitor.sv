@@ -37,9 +37,9 @@ module encoder_monitor #(
   assign edge_unit    = tick_count_i[EdgeBits-1:0] == '0;
   assign chatter_unit = edge_unit && tick_count_i[ChatterBits-1:EdgeBits] == '0;
 
-  // A second edge in a row on the same channel turns the count back. Edges of both channels in one
-  // tick are no motion: the channels are shorted. But if the count moved by two or more in the tick,
-  // both channels live.
+  // Two edges in a row on one channel: the shaft has turned back, or the other channel is broken. Edges of
+  // both channels in one tick mean that the channels are shorted, unless the count moved by two or more in
+  // this tick: then both channels work.
   logic [1:0] levels_q, changed;
   logic       index_wrong_q, of_b_q, moved, both, of_row, late, far;
   assign changed = levels_i ^ levels_q;
@@ -123,7 +123,7 @@ module encoder_monitor #(
   end
 
   logic unused;
-  assign unused = ^tick_count_i;  // the block counts units of ticks
+  assign unused = ^tick_count_i;  // only some of its bits are used
 endmodule
 
 `default_nettype wire

@@ -53,7 +53,7 @@ module ramp (
   assign step      = frozen_i ? '0 : p.ramp_step == '0 ? W'(1) : W'(p.ramp_step);  // at least one LSB
   assign left      = down ? excess_q - (W + 1)'(step) : excess_q + (W + 1)'(step);
   assign reached   = left == '0 || left[W] == down;
-  // Frozen, a reference stays that would grow or change its sign.
+  // While the torque is frozen, only a step that shrinks the reference and keeps its sign is taken.
   always_comb begin
     if (ramping_q && armed_i) stepping = 1'b1;
     else if (down)            stepping = frozen && (ramp_q[W-1] || target_q[T-1]);

@@ -90,7 +90,8 @@ module scene (
   end
   assign product = 64'(product_q);
 
-  // A term with its guard bits. A single term keeps a trace of what is dropped, for rounding to even.
+  // A term with its guard bits. With ROUNDING 2 a term that is not added to
+  // another keeps a sticky bit: whether any dropped bit was 1. Rounding to even needs it.
   function automatic logic signed [63:0] single(input logic signed [63:0] x, input int fraction_bits);
     single = cfg::ROUNDING == 2 ? fx::scale_sticky(x, fraction_bits - PartF) : fx::scale(x, PartF - fraction_bits);
   endfunction
@@ -102,8 +103,9 @@ module scene (
   assign spring = single(product, DistanceF + cfg::P_COMPRESSION_STIFFNESS_F);
   assign slant  = single(product, DistanceF + cfg::P_ATTRACT_CORE_SLOPE_F);  // the repelling charge has the same format
 
-  // Outside of its core a charge divides. A square of more than 32 bits gives 0; so does a distance of
-  // more than 18, whose product with its low bits is negative.
+  // Outside of its core a charge divides by the square of the distance. The force is 0 where the square
+  // has more than 32 bits. It is also 0 where the distance has more than 18 bits: only the low bits are
+  // a factor then, and the product is negative.
   logic [31:0] square_q;
   logic [15:0] quotient;
   logic divided, far_q, inside_core;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Torque to current, voltage and duty:
-//   I = Jn Kp/Ktn * tau_ref + (1 - Jn Kp)/Ktn * tau_hat    limited; tau_hat in closed loop alone
+//   I = Jn Kp/Ktn * tau_ref + (1 - Jn Kp)/Ktn * tau_hat    limited; the term of tau_hat only in closed loop
 //   V = R * I + Ke * w + dead voltage                      within a window around Ke * w
 //   duty = V * period / supply                             limited
 // In voltage mode V goes to its set-point by a step a tick, and I = V/R. Disarmed, all are 0.
@@ -64,7 +64,8 @@ module torque_law (
   end
   assign product = 64'(product_q);
 
-  // One branch is one sum, and its limit a clock later. A product comes in its own fraction bits.
+  // Each branch adds the terms of one sum; the sum is limited in the next clock. A product has the fraction
+  // bits of its two factors.
   logic signed [W-1:0] base, term, x_q, limited;
   logic [cfg::LIMITER_W-1:0] limit, limit_q;
   logic up, beyond;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// All words of a tick for the host, in two banks: the tick that runs writes one, the host reads the
-// other. A freeze holds what is read. The words go one a clock, the chain's last ones after its end; word_o shows them to a stream or a capture. docs/blocks/host.md
+// All words of a tick for the host, in two banks: the running tick writes one, the host reads the other.
+// A freeze keeps the bank that is read. One word a clock is written and shown at word_o, for a stream or a
+// capture; the last words come after the end of the chain. docs/blocks/host.md
 
 `default_nettype none
 

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Encoder socket: an absolute encoder, read once in ABSOLUTE_PERIOD ticks. The count follows every
-// good reading; the travel does not follow one that ends a fault, for an angle that was found again
-// is no motion. docs/blocks/absolute_encoder.md
+// good reading. The first good reading after a fault moves the count but not the travel, because the
+// shaft has not moved by that step. docs/blocks/absolute_encoder.md
 
 `default_nettype none
 
@@ -40,8 +40,9 @@ module absolute (
   assign change = encoder_i.polarity ? last_q - reading : reading - last_q;
   assign found  = faults_q != '0;  // this reading ends a fault
 
-  // seen_q: what closed the gates, until the faults are cleared; a jump also while they are closed, since
-  // the angle may be wrong for ever after it. A sensor without a good reading starts, or is missing.
+  // seen_q keeps the reasons that closed the gates until the faults are cleared. It keeps a jump also while
+  // the gates are closed, because the angle may stay wrong after a jump. Before its first good reading a
+  // sensor is starting, or is missing.
   localparam logic [4:0] Jump = 5'(1 << map::ABSOLUTE_JUMP_BIT);
   assign starts = !known_q && unblemished;
   always_comb begin

@@ -154,9 +154,10 @@ module absolute_encoder #(
     end
   end
 
-  // The reach is that of two readings, for a sensor that samples by itself gives an angle up to a reading old. Each left out
-  // since, because it was wrong or no angle, adds the larger of the last two steps and a third of the fastest, which is more
-  // than a shaft gains in a reading. A jump adds nothing, so an angle that stays where it leapt is a fault.
+  // The reach is the largest step that a shaft can make since the last good reading. It is that of two readings at least,
+  // because the angle of a sensor that samples by itself may be one reading old. Each reading left out since then adds the
+  // larger of the last two steps and a third of the fastest, more than a shaft can accelerate in a reading. A reading that
+  // jumped adds nothing, so an angle that stays where it jumped to is a fault.
   localparam int Gain = (JumpStep + 2) / 3;
   localparam int StepW = $clog2(JumpStep + 1);
   logic [StepW-1:0] step_q, before_q, larger, pace;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Compares a measured current with the one that the applied voltage makes, which the integrator of the current's
-// controller has as a voltage at the winding's resistance. A broken sensor, an open phase: missing_o. Latency: valid_i to missing_o 19 clocks; a valid_i within 18 clocks of a taken one is ignored.
+// Compares the measured current with the current that the applied voltage should cause. The integrator of the current
+// controller holds that current, as a voltage at the winding's resistance. missing_o: a sensor is broken or a phase is
+// open, 19 clocks after valid_i. A valid_i within 18 clocks of the one before is ignored.
 // Formats: voltages [1,1,17] of the supply, current [1,3,17] of full scale. docs/blocks/current.md
 
 `default_nettype none

@@ -49,8 +49,8 @@ module current_control (
       .word_i(take ? proportional_i : integral_i), .value_i(take ? HalfBit : '0), .hold_i(1'b0), .product_o(product)
   );
 
-  // base: what the voltage is without an error. rest: what is left of the applied voltage without it, as the limit
-  // leaves it; unlimited this is the proportional part.
+  // base: the voltage without the proportional part. rest: the applied voltage, after its limit, minus base; without a
+  // limit this is the proportional part.
   logic signed [35:0] integrator_q;
   logic signed [19:0] base_q;
   logic signed [24:0] wanted_q;

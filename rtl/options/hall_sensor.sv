@@ -86,12 +86,12 @@ module hall_sensor #(
   assign first  = runs && !known_q;
   assign passed = runs && known_q && sector != sector_q && !up && !down;
 
-  // The angle before the edge may be off by half a sector, after it by what the lines and the encoder differ.
+  // Before the first edge the angle may be off by half a sector; later, by how much lines and encoder differ.
   logic signed [15:0] off;
   assign off   = $signed(angle_o[31:16] - begin_of(sector_q) - Middle);
   assign apart = known_q && (exact_q ? off > 16'sd10923 || off < -16'sd10923 : off > 16'sd16384 || off < -16'sd16384);
 
-  // Bits of the faults that are kept: while the gates are closed all lines alike are no fault of later.
+  // Faults that are kept until they are cleared. Equal lines while the gates are closed are not kept.
   logic [2:0] seen_q;
   assign restarts = clear_i && seen_q != '0;
   assign faults_o = {seen_q[2:1], seen_q[0] || alike};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Latches an over-current: a fast sinc3 filter over the integrators of current_sense, combs of its own. Its first two
-// results after a reset are no whole ones. docs/blocks/current.md
+// Latches an over-current. A fast sinc3 filter shares the integrators of current_sense and has its own combs. Its
+// first two results after a reset are not used. docs/blocks/current.md
 
 `default_nettype none
 

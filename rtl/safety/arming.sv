@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Arms and disarms at the end of a tick, and alone enables the gates. The owner is the host or the
-// panel. A request counts from a tick in which it was low, while its owner has control, until it is
-// refused; so gates open at most ARM_WAIT_MS after the owner's rising edge, or the request must be
-// given anew. A change of owner refuses a request that holds the gates open. A trip closes them in
-// the next clock. docs/blocks/safety.md
+// Arms and disarms at the end of a tick. No other block enables the gates. The owner is the host or the
+// panel. Only a rising edge of the owner's request arms: the gates open at most ARM_WAIT_MS after this
+// edge; later the request must fall and rise again. A change of owner disarms. A trip closes the gates
+// in the next clock. docs/blocks/safety.md
 
 `default_nettype none
 

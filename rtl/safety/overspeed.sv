@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Causes of fault: the velocity is above its limit (trip_o), and it has changed in a tick by more
-// than its low-pass can (jump_o), which only broken hardware does: |a1 * (x - y)| is below 2^Weight
-// LSB for every word a1, so the bits from that weight up change by one at most. Both a clock after
-// start_i. docs/blocks/safety.md
+// Two causes of fault, a clock after start_i. trip_o: the velocity is above its limit. jump_o: it has
+// changed in a tick by more than the low-pass allows, so some hardware is broken. A step of the low-pass,
+// a1 * (x - y), is below 2^Weight LSB for every word a1; therefore the bits of the velocity from Weight
+// up change by one at most. docs/blocks/safety.md
 
 `default_nettype none
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// All causes of fault, the latch that keeps them, and arming, which alone enables the gates. Of the
-// causes that are judged once a tick each has its clock:
-// velocity, heat, polarity, and after the chain self-test and watchdog. docs/blocks/safety.md
+// All causes of fault, the latch that keeps them, and arming, the only block that enables the gates.
+// Some causes are checked once a tick, each in a clock of its own: first velocity, heat and polarity,
+// then, after the chain, self-test and watchdog. docs/blocks/safety.md
 
 `default_nettype none
 

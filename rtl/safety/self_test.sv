@@ -47,7 +47,8 @@ module self_test (
   end
   assign failed = net_q != Answer;
 
-  logic [W-1:0] units_q;  // of 2^SELF_TEST_UNIT_BITS ticks; its end has reached every word
+  // Units of 2^SELF_TEST_UNIT_BITS ticks; it stops at its largest value, when every time is over.
+  logic [W-1:0] units_q;
   logic unit_q, patience_q, unit, patience, late_q, quiet, over, gives_up, begins;
   assign unit     = tick_count_i[map::SELF_TEST_UNIT_BITS] != unit_q;
   assign patience = tick_count_i[map::SELF_TEST_PATIENCE_BITS] != patience_q;

@@ -49,22 +49,23 @@ function(feltgate_package variable design)
   set(${variable} "${package}" PARENT_SCOPE)
 endfunction()
 
-# What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
-set(FELTGATE_BACKEND_OPTIONS ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)
 # The laws of any design tick by tick, in integers and in real arithmetic.
 feltgate_sim_library(chain sim/reference)
-target_compile_options(feltgate_chain PRIVATE ${FELTGATE_BACKEND_OPTIONS})
-# Twins of the designs that the program names.
-add_library(feltgate_registry STATIC "${FELTGATE_ROOT}/model/sim/backends/backend.cpp"
-  "${FELTGATE_ROOT}/model/sim/backends/axes_cores.cpp")
-target_compile_options(feltgate_registry PRIVATE ${FELTGATE_BACKEND_OPTIONS})
-target_link_libraries(feltgate_registry PUBLIC feltgate_chain PRIVATE fmt::fmt)
-feltgate_export(registry)
+target_compile_options(feltgate_chain PRIVATE ${FELTGATE_TWIN_OPTIONS})
+# Twins of the designs that the program names, of one axis and of several.
+add_library(feltgate_registry STATIC "${FELTGATE_ROOT}/model/sim/backends/backend.cpp")
+target_link_libraries(feltgate_registry PUBLIC feltgate_chain feltgate_twin_parts PRIVATE fmt::fmt)
+add_library(feltgate_axes_cores STATIC "${FELTGATE_ROOT}/model/sim/backends/axes_cores.cpp")
+target_link_libraries(feltgate_axes_cores PUBLIC feltgate_registry PRIVATE fmt::fmt)
+foreach(library registry axes_cores)
+  target_compile_options(feltgate_${library} PRIVATE ${FELTGATE_TWIN_OPTIONS})
+  feltgate_export(${library})
+endforeach()
 
 # With those of rtl/designs, and those of files.
 add_library(feltgate_backends STATIC "${FELTGATE_ROOT}/model/sim/backends/shipped_designs.cpp")
 target_compile_options(feltgate_backends PRIVATE ${FELTGATE_WARNINGS})
-target_link_libraries(feltgate_backends PUBLIC feltgate_registry feltgate_design)
+target_link_libraries(feltgate_backends PUBLIC feltgate_axes_cores feltgate_design)
 # An archive's member is linked where something asks for it: this asks for the source of the designs.
 target_link_options(feltgate_backends INTERFACE "LINKER:--undefined=feltgate_shipped_designs")
 feltgate_export(backends)

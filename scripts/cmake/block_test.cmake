@@ -41,7 +41,8 @@ if(NOT TARGET feltgate_catch_main)
     FELTGATE_BUILD_DIR="${PROJECT_BINARY_DIR}" FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
   target_compile_features(feltgate_catch_main PUBLIC cxx_std_17)
   target_compile_options(feltgate_catch_main PRIVATE ${FELTGATE_WARNINGS} -O1)
-  target_link_libraries(feltgate_catch_main PUBLIC Catch2::Catch2)
+  target_link_libraries(feltgate_catch_main PUBLIC Catch2::Catch2
+    INTERFACE $<LINK_ONLY:$<TARGET_NAME_IF_EXISTS:feltgate_twin_parts>>)
   # Catch2's header is a second of the compiler, of most tests the greater half: read once.
   target_precompile_headers(feltgate_catch_main PRIVATE "${FELTGATE_ROOT}/testbench/common/catch.hpp")
   set_source_files_properties(${FELTGATE_ROOT}/testbench/common/catch_main.cpp

@@ -6,7 +6,7 @@
 include_guard(GLOBAL)
 
 feltgate_library(feltgate_board_parts host/board EXCEPT "/rtl_of_board\\.cpp$" feltgate_backends feltgate_loop feltgate_axes_loop)
-target_compile_options(feltgate_board_parts PRIVATE ${FELTGATE_BACKEND_OPTIONS})
+target_compile_options(feltgate_board_parts PRIVATE ${FELTGATE_TWIN_OPTIONS})
 set(board_libraries feltgate_command_line feltgate_board_parts feltgate_files feltgate_design)
 feltgate_program(feltgate_board board_main.cpp ${board_libraries})
 
@@ -26,7 +26,7 @@ foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_OTHERS)
     FELTGATE_DESIGN_HEADER="feltgate/generated/${design}.hpp" FELTGATE_RTL=Vboard_${design} FELTGATE_RTL_HEADER="Vboard_${design}.h")
   target_include_directories(board_rtl_${design} PRIVATE "${FELTGATE_HEADERS}")
   add_dependencies(board_rtl_${design} feltgate_headers)
-  target_compile_options(board_rtl_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
+  target_compile_options(board_rtl_${design} PRIVATE ${FELTGATE_TWIN_OPTIONS})
   target_link_libraries(board_rtl_${design} PRIVATE feltgate_board_parts board_${design})
   add_executable(feltgate_board_rtl_${design} $<TARGET_OBJECTS:feltgate_board> $<TARGET_OBJECTS:board_rtl_${design}>)
   target_link_libraries(feltgate_board_rtl_${design} PRIVATE ${board_libraries} board_${design} fmt::fmt)

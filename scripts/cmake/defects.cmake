@@ -151,8 +151,8 @@ function(feltgate_defect_program target)
   add_executable(${target} ${arg_SOURCES} "${copies}/seeded_choice.hpp")
   set_target_properties(${target} PROPERTIES FELTGATE_DEFECT_FILE "${arg_FILE}")
   target_include_directories(${target} BEFORE PRIVATE "${copies}/model/include" "${copies}/model")
-  # As quick to compile as -O0, nearly, and several times as quick to run.
-  target_compile_options(${target} PRIVATE -w -O1)
+  # As quick to compile as -O0, nearly, and several times as quick to run. The twin is of the copies, too.
+  target_compile_options(${target} PRIVATE -w -O1 -UFELTGATE_COMPILED_TWIN)
   target_precompile_headers(${target} REUSE_FROM feltgate_catch_main)
   feltgate_unity(${target})
   target_link_libraries(${target} PRIVATE

@@ -16,6 +16,26 @@ if(NOT FELTGATE_SIM)
   return()
 endif()
 
+# The twin takes the compiler long in each source that includes it, so that it is compiled once here.
+# pip needs one axis alone.
+set(parts compiled_core)
+if(NOT FELTGATE_PYTHON)
+  list(APPEND parts compiled_axes compiled_linked)
+endif()
+list(TRANSFORM parts REPLACE "(.+)" "${FELTGATE_ROOT}/model/sim/backends/\\1.cpp")
+add_library(feltgate_twin_parts STATIC ${parts})
+# What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
+set(FELTGATE_TWIN_OPTIONS ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)
+target_compile_options(feltgate_twin_parts PRIVATE ${FELTGATE_TWIN_OPTIONS})
+target_compile_features(feltgate_twin_parts PUBLIC cxx_std_17)
+target_compile_definitions(feltgate_twin_parts PUBLIC FELTGATE_COMPILED_TWIN)
+target_include_directories(feltgate_twin_parts PUBLIC
+  "$<BUILD_INTERFACE:${FELTGATE_ROOT}/model/include>" "$<INSTALL_INTERFACE:include>")
+# In somebody else's project feltgate::core remains headers.
+if(PROJECT_IS_TOP_LEVEL)
+  target_link_libraries(feltgate_model INTERFACE "$<BUILD_INTERFACE:feltgate_twin_parts>")
+endif()
+
 find_package(Boost 1.74 REQUIRED)
 find_package(fmt 9 QUIET)
 if(NOT fmt_FOUND)
@@ -78,6 +98,7 @@ function(feltgate_export name)
   set_property(GLOBAL APPEND PROPERTY FELTGATE_SIM_TARGETS feltgate_${name})
 endfunction()
 
+feltgate_export(twin_parts)
 # Strict reading of TOML files and what needs it.
 feltgate_sim_library(config files/toml)
 target_include_directories(feltgate_config SYSTEM PUBLIC
@@ -138,7 +159,7 @@ feltgate_sim_library(loop sim/loop
 # Laws in a loop: the engine's image, and the law in real numbers beside it.
 feltgate_library(feltgate_law_loop sim/law_loop feltgate_law feltgate_loop)
 # Devices of several axes with their laws, in one loop.
-feltgate_library(feltgate_axes_loop sim/axes_loop feltgate_law_loop feltgate_linkage_files
+feltgate_library(feltgate_axes_loop sim/axes_loop feltgate_axes_cores feltgate_law_loop feltgate_linkage_files
   feltgate_gimbal_files)
 # A closed loop hands scalars from step to step; packed in pairs they would wait for the store.
 foreach(target feltgate_plant feltgate_linkage feltgate_gimbal feltgate_loop feltgate_axes_loop)

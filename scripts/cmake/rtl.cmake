@@ -86,10 +86,10 @@ function(feltgate_rtl_design design file package)
   add_library(rtl_${design} OBJECT "${source}")
   target_compile_definitions(rtl_${design} PRIVATE FELTGATE_DESIGN=${type} FELTGATE_DESIGN_HEADER="feltgate/generated/${design}.hpp"
     FELTGATE_RTL=Vcore_${design} FELTGATE_RTL_HEADER="Vcore_${design}.h")
-  target_compile_options(rtl_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
+  target_compile_options(rtl_${design} PRIVATE ${FELTGATE_TWIN_OPTIONS})
   target_include_directories(rtl_${design} PRIVATE "${FELTGATE_HEADERS}")
   add_dependencies(rtl_${design} feltgate_headers)
-  target_link_libraries(rtl_${design} PRIVATE feltgate_registry core_${design} fmt::fmt)
+  target_link_libraries(rtl_${design} PRIVATE feltgate_axes_cores core_${design} fmt::fmt)
 endfunction()
 
 add_library(feltgate_rtl INTERFACE)

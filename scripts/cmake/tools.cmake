@@ -16,7 +16,7 @@ target_compile_options(feltgate_command_line PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_command_line PRIVATE
   FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}" FELTGATE_VERSION="${PROJECT_VERSION}")
 target_link_libraries(feltgate_command_line PUBLIC feltgate_files feltgate_design CLI11::CLI11
-  PRIVATE feltgate_registry feltgate_units fmt::fmt)
+  PRIVATE feltgate_axes_cores feltgate_units fmt::fmt)
 # CLI11's header is eight seconds of the compiler: read once.
 target_precompile_headers(feltgate_command_line PRIVATE <CLI/CLI.hpp> <fmt/format.h>)
 

@@ -24,7 +24,7 @@ def header_of(root, name):
 
 
 # Warnings and a code that is not quite C++ are no matter; every error is.
-OPTIONS = ["-O2", "-w", "-Wno-narrowing", "-fpermissive", "-fmax-errors=0"]
+OPTIONS = ["-UFELTGATE_COMPILED_TWIN", "-O2", "-w", "-Wno-narrowing", "-fpermissive", "-fmax-errors=0"]
 
 
 class CompileError(MutateError):

@@ -49,17 +49,19 @@ int design_for(const DesignArguments& a, const design::RegisterMap& registers) {
   std::string command = "feltgate design " + a.name + " --for";
   for (const std::string& s : a.scenes) command += " " + s;
   std::string left_out;
-  for (const std::string& block : blocks_left_out(laws, registers)) left_out += " " + block;
+  for (const design::Scene& scene : registers.scenes) {
+    if (scene.name != "free" && laws.count(scene.name) == 0) left_out += " " + scene.name;
+  }
   if (left_out.empty()) left_out = " none";
   const std::string design_path = find_file(a.name, "rtl/designs");
   const std::string text = design::text_for_scenes(
-      design_path, laws, "Written by: " + command + "\nBlocks left out:" + left_out);
+      design_path, laws, "Written by: " + command + "\nWithout the scenes:" + left_out);
   files::Outputs outputs;
   outputs.reads(design_path);
   outputs.open("--output", a.output.empty() ? "-" : a.output)->write(text);
   outputs.commit();
   if (!a.output.empty()) {
-    outputs.say(fmt::format("{}: blocks left out:{}\n", a.output, left_out));
+    outputs.say(fmt::format("{}: without the scenes:{}\n", a.output, left_out));
   }
   return exit_ok;
 }

@@ -28,6 +28,8 @@ class FeltgateAxes {
   using Glue = std::conditional_t<WithEngine, AxesEngine<N>, NoAxesEngine<N>>;
   using In = AxesIn<N>;
   using Out = AxesOut<N>;
+  using Tell = Callback<>;
+  using OnEvent = Callback<std::int64_t, int>;
 
   /// `reads`: a host reads the words of the axes.
   explicit FeltgateAxes(const axis::Design& d, bool reads = true)
@@ -52,25 +54,19 @@ class FeltgateAxes {
 
   /// Advances `clocks` clocks with the inputs held; reg_write and the axes' set_zero must be low.
   /// Equals so many calls of clock(), but goes from event to event where no axis can affect the
-  /// others. `on_snapshot()` is called whenever out() holds a valid snapshot. A watcher gets
-  /// `event(clock, number)` for each event of a program, where clock 0 is the first of these
-  /// clocks, and `tick_ends()` before a tick's last clock, when all is known of the runs that began
-  /// in it.
-  template <class OnSnapshot>
-  void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    NoWatcher none;
-    run(in, clocks, on_snapshot, none);
-  }
-  template <class OnSnapshot, class Watcher>
-  void run(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Watcher& watcher) {
-    go(in, clocks, on_snapshot, watcher, false);
+  /// others. `on_snapshot()` is called whenever out() holds a valid snapshot; `on_event(clock,
+  /// number)` for each event of a program, where clock 0 is the first of these clocks;
+  /// `on_tick_end()` before a tick's last clock, when all is known of the runs that began in it.
+  void run(const In& in, std::int64_t clocks, Tell on_snapshot, OnEvent on_event = {},
+           Tell on_tick_end = {}) {
+    go(in, clocks, {on_snapshot, on_event, on_tick_end}, false);
     settle();
     show(in);
   }
   /// As run(), with out() as after FeltgateCore::advance().
-  template <class OnSnapshot, class Watcher>
-  void advance(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Watcher& watcher) {
-    go(in, clocks, on_snapshot, watcher, true);
+  void advance(const In& in, std::int64_t clocks, Tell on_snapshot, OnEvent on_event = {},
+               Tell on_tick_end = {}) {
+    go(in, clocks, {on_snapshot, on_event, on_tick_end}, true);
   }
 
   const Out& out() const { return out_; }
@@ -82,9 +78,7 @@ class FeltgateAxes {
   bool last() const { return clock_of_tick() == cores_[0].clocks_per_tick() - 1; }
   /// Whether in the next clock position, velocity and tau_hat of all axes are those of this tick.
   bool measured() const { return cores_[0].measured(); }
-  /// The engine; only with WithEngine.
-  auto& engine() { return glue_.engine(); }
-  /// The logic between engine and cores.
+  /// The logic between engine and cores; with WithEngine it has the engine.
   const Glue& glue() const { return glue_; }
   Glue& glue() { return glue_; }
 
@@ -102,15 +96,14 @@ class FeltgateAxes {
     std::array<bool, N> waits{};
   };
 
-  struct NoWatcher {
-    void event(std::int64_t, int) {}
-    void tick_ends() {}
+  struct Watcher {
+    Tell snapshot;
+    OnEvent event;
+    Tell tick_ends;
   };
 
   /// `amid`: a core may be left amid a tick.
-  template <class OnSnapshot, class Watcher>
-  void go(const In& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Watcher& watcher,
-          bool amid) {
+  void go(const In& in, std::int64_t clocks, const Watcher& watcher, bool amid) {
     std::int64_t at = 0;
     while (at < clocks) {
       std::array<CoreIn, N> each = inputs(in);
@@ -123,7 +116,7 @@ class FeltgateAxes {
         snapshot = out_.axis[0].snapshot_valid;
         ends = last();
       }
-      if (snapshot) on_snapshot();
+      if (snapshot) watcher.snapshot();
       if (ends) watcher.tick_ends();
       at += step;
     }
@@ -167,10 +160,9 @@ class FeltgateAxes {
   /// Advances from event to event, at most to the end of the tick, towards clock `clocks` of run(),
   /// of which the present clock is `at`. Returns the clocks passed; 0 where the next one must use
   /// clock().
-  template <class Watcher>
   [[gnu::noinline]] int pass(const In& in, std::array<CoreIn, N>& each, std::int64_t at,
-                             std::int64_t clocks, bool* snapshot, bool* ends, Watcher& watcher,
-                             bool amid) {
+                             std::int64_t clocks, bool* snapshot, bool* ends,
+                             const Watcher& watcher, bool amid) {
     const int tick = cores_[0].clocks_per_tick();
     const int from = clock_of_tick();
     int to = static_cast<int>(std::min<std::int64_t>(tick, from + clocks - at));
@@ -309,3 +301,7 @@ class FeltgateAxes {
 };
 
 }  // namespace feltgate
+
+#ifdef FELTGATE_COMPILED_TWIN
+#include "feltgate/compiled_axes.hpp"  // IWYU pragma: export
+#endif

@@ -17,6 +17,7 @@
 #include "feltgate/axis/quadrature_hall.hpp"
 #include "feltgate/axis/three_phase.hpp"
 #include "feltgate/axis/three_phase_current.hpp"
+#include "feltgate/callback.hpp"
 #include "feltgate/core_ports.hpp"
 
 namespace feltgate {
@@ -40,6 +41,7 @@ class FeltgateCore {
  public:
   using In = CoreIn;
   using Out = CoreOut;
+  using Tell = Callback<>;
 
   /// The clocks of a tick in which the position is sampled, velocity and tau_hat are new, and the
   /// duty of a program's torque.
@@ -50,90 +52,48 @@ class FeltgateCore {
       velocity_clock + axis::Scene<axis::Fixed>::usual_latency + axis::Axis::duty_after_scene;
 
   /// `reads`: a host reads; without it every read gives 0, and no words are told.
-  explicit FeltgateCore(const axis::Design& d, bool reads = true)
-      : axis_(d),
-        encoder_(encoder_of(d)),
-        bridge_(bridge_of(d)),
-        heartbeat_(d),
-        clocks_per_tick_(d["CLOCKS_PER_TICK"]),
-        reads_(reads),
-        beats_(d["HEARTBEAT"] != 0),
-        plain_(std::holds_alternative<axis::Quadrature>(encoder_) &&
-               std::holds_alternative<axis::HBridge>(bridge_)) {
-    reset();
-  }
+  explicit FeltgateCore(const axis::Design& d, bool reads = true);
 
   /// A clock with the reset. The parameter RAM keeps its words, as in the RTL.
-  void reset(const CoreIn& in = {}) {
-    sockets([&](auto& encoder, auto& bridge) {
-      settle(encoder, bridge);
-      axis_.reset({encoder.out(), bridge.out(), in});
-      encoder.reset();
-      bridge.reset();
-      heartbeat_.reset();
-      out_.heartbeat = false;
-      gate_clocks_ = {};
-      writes_ = 0;
-      show(in, encoder, bridge);
-    });
-  }
+  void reset(const CoreIn& in = {});
 
   /// Advances one clock with these inputs.
-  void clock(const CoreIn& in) {
-    sockets([&](auto& encoder, auto& bridge) {
-      settle(encoder, bridge);
-      clock(in, encoder, bridge);
-    });
-  }
+  void clock(const CoreIn& in);
 
   /// Advances `clocks` clocks with the inputs held; reg_write and set_zero must be low. Equals so
   /// many calls of clock(). `on_snapshot()` is called whenever out() holds a valid snapshot.
-  template <class OnSnapshot>
-  void run(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+  void run(const CoreIn& in, std::int64_t clocks, Tell on_snapshot) {
     go(in, clocks, on_snapshot, false);
     settle();
   }
   /// As run(), but amid a tick out() shows of this tick only the snapshot, what bridge and encoder
   /// show, and position, velocity and tau_hat; settle() shows the rest. A caller that needs no more
   /// goes on in short steps at little cost.
-  template <class OnSnapshot>
-  void advance(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+  void advance(const CoreIn& in, std::int64_t clocks, Tell on_snapshot) {
     go(in, clocks, on_snapshot, true);
     if (whole_.on && whole_.sampled) show_measured();
   }
   /// Makes out() equal to that of so many calls of clock().
-  void settle() {
-    if (!whole_.on) return;
-    sockets([this](auto& encoder, auto& bridge) { settle(encoder, bridge); });
-  }
+  void settle();
 
   /// Whether something could close the gates before the tick ends, with the inputs held. May return
   /// true when false would hold.
-  bool may_trip(const CoreIn& in) const {
-    if (!plain_ || !quadrature().calm(in, axis_.encoder())) return true;
-    return !(whole_.on && whole_.sampled) &&
-           axis_.may_trip({quadrature().out(), h_bridge().out(), in});
-  }
+  bool may_trip(const CoreIn& in) const;
 
   /// Fault injection: inverts a bit of a word of the parameter RAM, or from bit 32 on of its check;
   /// between two ticks.
-  void flip(int address, int bit) { axis_.flip(address, bit); }
+  void flip(int address, int bit);
   /// Fault injection: inverts a bit of the control word.
   void flip_control(int bit) { axis_.flip_control(bit); }
 
   const CoreOut& out() const { return out_; }
   /// A word of the running tick's snapshot by its slot; all are there when on_snapshot() is called.
   /// Between two ticks of the last one's.
-  std::uint32_t word(int slot) const {
-    if (!out_.snapshot_valid) return axis_.word(slot);
-    return axis::Snapshot::at(slot, axis_out(CoreIn{}).snapshot);
-  }
+  std::uint32_t word(int slot) const;
   /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo, c_hi, c_lo.
   GateCounts gate_clocks() const { return plain_ ? h_bridge().gate_clocks() : gate_clocks_; }
   /// Of three phases: clocks of this PWM period in which leg 0, 1 or 2 is to be high; else 0.
-  int on_time(std::size_t leg) const {
-    return std::visit([leg](const auto& bridge) { return bridge.on_time(leg); }, bridge_);
-  }
+  int on_time(std::size_t leg) const;
   /// Free-running count at the start of the tick.
   std::int16_t sampled_travel() const { return axis_.blocks().travel; }
   SelfTestResult self_test_result() const {
@@ -166,10 +126,7 @@ class FeltgateCore {
 
   const axis::Axis& axis() const { return axis_; }
   /// For comparisons: every output of the axis with these inputs.
-  axis::Axis::Out axis_out(const CoreIn& in) const {
-    return at_axis<axis::Axis::Out>(
-        in, [this](const axis::Axis::In& to_axis) { return axis_.out(to_axis); });
-  }
+  axis::Axis::Out axis_out(const CoreIn& in) const;
   int clocks_per_tick() const { return clocks_per_tick_; }
   /// Ticks that were taken as a whole, and those that began so and went on clock by clock.
   std::int64_t whole_ticks() const { return whole_ticks_; }
@@ -229,11 +186,7 @@ class FeltgateCore {
         },
         encoder_, bridge_);
   }
-  axis::Safe safe(const CoreIn& in) const {
-    if (plain_) return axis_.safe({quadrature().out(), h_bridge().out(), in});
-    return at_axis<axis::Safe>(
-        in, [this](const axis::Axis::In& to_axis) { return axis_.safe(to_axis); });
-  }
+  axis::Safe safe(const CoreIn& in) const;
 
   template <class Encoder, class Bridge>
   void clock(const CoreIn& in, Encoder& encoder, Bridge& bridge) {
@@ -262,22 +215,7 @@ class FeltgateCore {
   // the sockets; if one of these comes amid it, settle() makes up the clocks so far one by one.
 
   /// `amid`: a tick may be left amid it.
-  template <class OnSnapshot>
-  void go(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, bool amid) {
-    sockets([&](auto& encoder, auto& bridge) {
-      while (clocks > 0) {
-        const bool may = amid || clocks >= clocks_per_tick_;
-        if (whole_.on ? held(in) : may && begin(in, encoder, bridge)) {
-          clocks -= step(in, clocks, on_snapshot, encoder, bridge);
-        } else {
-          settle(encoder, bridge);
-          clock(in, encoder, bridge);
-          if (out_.snapshot_valid) on_snapshot();
-          --clocks;
-        }
-      }
-    });
-  }
+  void go(const CoreIn& in, std::int64_t clocks, Tell on_snapshot, bool amid);
   template <class Encoder, class Bridge>
   bool begin(const CoreIn& in, Encoder& encoder, Bridge& bridge) {
     const axis::Position& position = encoder.out();
@@ -314,8 +252,8 @@ class FeltgateCore {
            (program || !whole_.sampled) && (in.encoder == b.encoder || !axis_.laws().spans.used);
   }
   /// At most to the sample, to the duty or to the tick's end; returns the clocks passed.
-  template <class OnSnapshot, class Encoder, class Bridge>
-  int pass(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Encoder& encoder,
+  template <class Encoder, class Bridge>
+  int pass(const CoreIn& in, std::int64_t clocks, Tell on_snapshot, Encoder& encoder,
            Bridge& bridge) {
     constexpr int sample = axis::TickCounter::sample_clock;
     Whole& w = whole_;
@@ -345,8 +283,8 @@ class FeltgateCore {
     if (w.at == clocks_per_tick_) end(clocks < clocks_per_tick_ + w.at - from, encoder, bridge);
     return goal - from;
   }
-  template <class OnSnapshot, class Encoder, class Bridge>
-  int step(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Encoder& encoder,
+  template <class Encoder, class Bridge>
+  int step(const CoreIn& in, std::int64_t clocks, Tell on_snapshot, Encoder& encoder,
            Bridge& bridge) {
     if constexpr (is_plain<Encoder, Bridge>) {
       if (whole_.at == 0 && clocks >= clocks_per_tick_ && is_still(encoder, in)) {
@@ -356,8 +294,8 @@ class FeltgateCore {
     return pass(in, clocks, on_snapshot, encoder, bridge);
   }
   /// All clocks of a tick without an edge.
-  template <class OnSnapshot, class Encoder, class Bridge>
-  int pass_tick(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot, Encoder& encoder,
+  template <class Encoder, class Bridge>
+  int pass_tick(const CoreIn& in, std::int64_t clocks, Tell on_snapshot, Encoder& encoder,
                 Bridge& bridge) {
     Whole& w = whole_;
     const auto run = [&](int to) {
@@ -382,8 +320,7 @@ class FeltgateCore {
     return clocks_per_tick_;
   }
   /// The duty is new.
-  template <class OnSnapshot>
-  void tell(OnSnapshot&& on_snapshot) {
+  void tell(Tell on_snapshot) {
     show_chain(whole_.values);
     whole_.drive = axis_.drive({}, whole_.drive.gates_clear, false);
     out_.snapshot_valid = true;
@@ -524,11 +461,6 @@ class FeltgateCore {
       out_.current = bridge.out().current;
       out_.current_clock = bridge.modulator_clock();
     }
-    if constexpr (std::is_same_v<Bridge, axis::HBridgeCurrent> ||
-                  std::is_same_v<Bridge, axis::ThreePhaseCurrent>) {
-      out_.current = bridge.out().current;
-      out_.current_clock = bridge.modulator_clock();
-    }
   }
   void show_measured() {
     out_.position = whole_.values.position;
@@ -569,3 +501,7 @@ class FeltgateCore {
 };
 
 }  // namespace feltgate
+
+#ifndef FELTGATE_COMPILED_TWIN  // else a library has it
+#include "feltgate/feltgate_core_steps.hpp"
+#endif

@@ -142,8 +142,13 @@ class LinkPort {
     if (state_ == State::bytes) return true;
     return state_ == State::idle && !r.valid && status_ == r.write && address_ == r.address;
   }
-  /// waits(), and no request is there or replied to.
-  bool rests(const In& in) const { return state_ == State::idle && !in.request.valid && waits(in); }
+  /// Whether the register port is not used for at least the time of a byte on the line, unless a
+  /// request comes. A reply reads its next word after the four bytes of the last one.
+  bool rests(const In& in) const {
+    const bool reads =
+        state_ != State::idle && (state_ != State::bytes || (left_ != 0 && byte_ == 3));
+    return !reads && !in.request.valid && !in.clear_faults && !clear_;
+  }
 
  private:
   enum class State : std::uint8_t { idle, wait, read, bytes };

@@ -20,14 +20,9 @@ class LinkedAxes {
   void clock(const AxesIn<N>& in) { axes_.clock(taking(in)); }
   /// Like clock() for `clocks` clocks; also calls `on_event(clock, number)` for each event of the
   /// law, where clock 0 is the first of these clocks.
-  template <class OnSnapshot, class OnEvent>
-  void run(const AxesIn<N>& in, std::int64_t clocks, OnSnapshot&& on_snapshot, OnEvent&& on_event) {
-    struct Watcher {
-      OnEvent& on_event;
-      void event(std::int64_t clock, int number) { on_event(clock, number); }
-      void tick_ends() {}
-    } watcher{on_event};
-    axes_.run(taking(in), clocks, on_snapshot, watcher);
+  void run(const AxesIn<N>& in, std::int64_t clocks, Callback<> on_snapshot,
+           Callback<std::int64_t, int> on_event) {
+    axes_.run(taking(in), clocks, on_snapshot, on_event);
   }
 
   const AxesOut<N>& out() const { return axes_.out(); }
@@ -46,7 +41,7 @@ class LinkedAxes {
   int clock_of_tick() const { return axes_.clock_of_tick(); }
   FeltgateCore& core(int n = 0) { return axes_.core(n); }
   const FeltgateCore& core(int n = 0) const { return axes_.core(n); }
-  auto& engine() { return axes_.engine(); }
+  auto& engine() { return axes_.glue().engine(); }
 
  private:
   /// A write removes an event, a read does not: a read may be repeated.

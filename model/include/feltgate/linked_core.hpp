@@ -84,15 +84,16 @@ class LinkedCore {
 
   /// Advances `clocks` clocks with the pins held, except uart_rx, which carries the bytes of
   /// send(). It is fast while nothing happens. `on_snapshot()` is called whenever out() holds a
-  /// valid snapshot.
-  template <class OnSnapshot>
-  void run(In in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+  /// valid snapshot. out()'s `reg_rdata` is unspecified.
+  void run(In in, std::int64_t clocks, Callback<> on_snapshot) {
     while (clocks > 0) {
       in.uart_rx = line_.level();
       const std::int64_t quiet = stretch(std::min(quiet_clocks(in), clocks));
-      if (quiet < tick_clocks_ && clocks >= tick_clocks_ && apart(in)) {
-        pass_tick(in, on_snapshot);
-        clocks -= tick_clocks_;
+      const std::int64_t rest =
+          std::min<std::int64_t>(tick_clocks_ - core_.clock_of_tick(), clocks);
+      if (quiet < rest && apart(in, rest)) {
+        pass_apart(in, static_cast<int>(rest), on_snapshot);
+        clocks -= rest;
         continue;
       }
       if (quiet <= 1) {
@@ -244,26 +245,27 @@ class LinkedCore {
     tx_.skip(quiet);
   }
 
-  /// A tick begins in which nothing of the link reaches the core: no request is there or can come.
-  bool apart(const In& in) const {
-    return kCore && core_.clock_of_tick() == 0 && !linked::pulses(in) && port_.rests(port_in(in)) &&
-           receiver_.idle() && rx_.clocks_to_byte() > tick_clocks_;
+  /// Whether nothing of the link reaches the core in so many clocks: no request is there or comes.
+  bool apart(const In& in, std::int64_t clocks) const {
+    return !linked::pulses(in) && port_.rests(port_in(in)) && rx_.clocks_to_byte() > clocks;
   }
-  /// Such a tick: first the core, then the link with the core's words.
-  template <class OnSnapshot>
-  void pass_tick(In in, OnSnapshot&& on_snapshot) {
-    run_device(in, port_.peek(port_in(in)), tick_clocks_, on_snapshot);
-    for (int at = 0; at < tick_clocks_;) {
+  /// Such clocks, within a tick: first the core, then the link with the core's words.
+  void pass_apart(In in, int clocks, Callback<> on_snapshot) {
+    const int from = core_.clock_of_tick(), end = from + clocks;
+    run_device(in, port_.peek(port_in(in)), clocks, on_snapshot);
+    auto event = events_.cbegin();
+    for (int at = from; at < end;) {
       in.uart_rx = line_.level();
       const typename Port::In port = port_in(in);
       const typename Port::Out does = port_.peek(port);
-      const auto quiet = static_cast<int>(within_tick(at, quiet_clocks(in)));
+      const auto quiet =
+          static_cast<int>(std::min<std::int64_t>(within_tick(at, quiet_clocks(in)), end - at));
       if (quiet <= 1) {
         line_.clock(out_.uart_tx);
-        clock_link(in, port, does, words_at(at));
+        clock_link(in, port, does, words_at(at, &event));
         ++at;
       } else {
-        pass_words(does, at, at + quiet);
+        pass_words(does, at, at + quiet, &event);
         skip(quiet);
         at += quiet;
       }
@@ -327,16 +329,16 @@ class LinkedCore {
   }
 
   /// Passes a stretch of quiet clocks; of several ticks the last one's words count.
-  template <class OnSnapshot>
   void pass(const In& in, const typename Port::Out& port, std::int64_t clocks,
-            OnSnapshot&& on_snapshot) {
+            Callback<> on_snapshot) {
     const int from = core_.clock_of_tick();
     run_device(in, port, clocks, on_snapshot);
-    pass_words(port, from, static_cast<int>(from + std::min<std::int64_t>(clocks, tick_clocks_)));
+    auto event = events_.cbegin();
+    pass_words(port, from, static_cast<int>(from + std::min<std::int64_t>(clocks, tick_clocks_)),
+               &event);
   }
-  template <class OnSnapshot>
   void run_device(const In& in, const typename Port::Out& port, std::int64_t clocks,
-                  OnSnapshot&& on_snapshot) {
+                  Callback<> on_snapshot) {
     const int from = core_.clock_of_tick();
     note_words_by_clock();
     const auto at_snapshot = [&] {
@@ -347,13 +349,19 @@ class LinkedCore {
     if constexpr (kCore) {
       core_.run(core_in(in, port), clocks, at_snapshot);
     } else {
-      core_.run(core_in(in, port), clocks, at_snapshot, [&](std::int64_t clock, int number) {
+      DeviceIn pins = core_in(in, port);
+      // Nobody takes the word at an idle port's address. An engine that is read goes clock by
+      // clock.
+      if (port_.rests(port_in(in))) pins.reg_addr = Map::C::read_status;
+      core_.run(pins, clocks, at_snapshot, [&](std::int64_t clock, int number) {
         if (kAxes || capture_.runs()) events_.push_back({from + static_cast<int>(clock), number});
       });
     }
   }
-  /// What the device has given in a clock of the tick that it has passed.
-  Words words_at(int at) const {
+  using NextEvent = typename std::vector<Event>::const_iterator;
+  /// What the device has given in a clock of the tick that it has passed. `event` is the first that
+  /// was not given before this clock.
+  Words words_at(int at, NextEvent* event) const {
     Words words;
     for (std::size_t n = 0; n < N; ++n) {
       const int k = given_[n][static_cast<std::size_t>(at)];
@@ -363,18 +371,17 @@ class LinkedCore {
       words.data[n] = device_word(n, LinkMap::slots[k]);
     }
     words.last = at == tick_clocks_ - 1;
+    if (*event != events_.cend() && (*event)->clock == at) {
+      words.event_valid = true;
+      words.event_number = (*event)++->number;
+    }
     return words;
   }
   /// Quiet clocks of stream, capture and view.
-  void pass_words(const typename Port::Out& port, int from, int to) {
-    std::size_t told = 0;
+  void pass_words(const typename Port::Out& port, int from, int to, NextEvent* event) {
     bool showed = true;
     for (int at = from; at < to; ++at) {
-      Words words = words_at(at);
-      if (told < events_.size() && events_[told].clock == at) {
-        words.event_valid = true;
-        words.event_number = events_[told++].number;
-      }
+      const Words words = words_at(at, event);
       const Shown shown = shown_words(words);
       if (shown.valid || shown.event_valid || showed || at < from + 3 || at >= to - 3) {
         stream_.clock({shown.valid, shown.number, shown.data, port.addr, 0, false, false});
@@ -421,3 +428,7 @@ class LinkedCore {
 };
 
 }  // namespace feltgate
+
+#ifdef FELTGATE_COMPILED_TWIN
+#include "feltgate/compiled_linked.hpp"  // IWYU pragma: export
+#endif

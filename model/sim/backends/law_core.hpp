@@ -31,17 +31,10 @@ class LawCore {
   /// at the end of its tick, when it is known which runs of the program began in it.
   template <class OnSnapshot>
   void advance(const CoreIn& in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
-    struct Watcher {
-      LawCore& core;
-      OnSnapshot& on_snapshot;
-      void event(std::int64_t, int) {}
-      void tick_ends() {
-        core.show();
-        on_snapshot();
-      }
-    } watcher{*this, on_snapshot};
-    axes_.advance(
-        axes_in(in), clocks, [] {}, watcher);
+    axes_.advance(axes_in(in), clocks, {}, {}, [&] {
+      show();
+      on_snapshot();
+    });
     show();
   }
   bool snapshot_due() const { return axes_.last(); }

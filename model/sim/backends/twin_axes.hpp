@@ -93,13 +93,7 @@ class TwinAxes : public AxesCores {
     if (!with_rtl && !in_.reg_write) {
       // Without RTL nobody reads; the back-end's address would force clock-by-clock execution.
       if (writes_.empty()) in_.reg_addr = 0;
-      struct Watcher {
-        TwinAxes& axes;
-        void event(std::int64_t, int) {}
-        void tick_ends() { axes.keep(); }
-      } watcher{*this};
-      twin_->advance(
-          in_, clocks, [] {}, watcher);
+      twin_->advance(in_, clocks, {}, {}, [this] { keep(); });
       now_ += clocks;
       return;
     }

@@ -127,7 +127,7 @@ module span_meter #(
     if (at[1]) too_large_q <= rest_q >= span_q;
   end
 
-  // What a span gives is new; what the age gives is a bound.
+  // A span that has ended gives a new velocity. The age of a span that lasts gives only an upper bound.
   logic [SizeW-1:0] size_q;
   logic negative_size_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -28,7 +28,7 @@ module velocity_estimator #(
       .still_o(still)
   );
 
-  // A step to 0 from a velocity of so many bits is none that overspeed takes for broken hardware.
+  // A velocity of at most SlowW bits may fall to 0 in one step: overspeed allows a step of this size.
   localparam int Weight = W + 17 - cfg::P_VELOCITY_A1_F;
   localparam int SlowW = Weight >= 0 && Weight <= W - 2 ? Weight + 1 : W;
 

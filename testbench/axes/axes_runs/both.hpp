@@ -89,20 +89,9 @@ class Both {
   bool hasty = false;  ///< a word is not waited for: it lands amid what follows
 
   void run(std::int64_t clocks) {
-    struct Watcher {
-      const Axes& axes;
-      const std::vector<EngineWatch>& told;
-      std::vector<std::pair<std::int64_t, int>> events = {};
-      std::size_t next = 0;
-      void event(std::int64_t clock, int number) { events.emplace_back(clock, number); }
-      void tick_ends() {
-        REQUIRE(next < told.size());
-        same_runs(told[next++], axes.glue().watch());
-      }
-    };
     std::vector<AxesOut<N>> shown;
     std::vector<EngineWatch> told;
-    std::vector<std::pair<std::int64_t, int>> events;
+    std::vector<std::pair<std::int64_t, int>> events, told_events;
     for (std::int64_t k = 0; k < clocks; ++k) {
       if (by_clock.out().event_valid) events.emplace_back(k, by_clock.out().event_number);
       by_clock.clock(in);
@@ -119,7 +108,14 @@ class Both {
       by_event.clock(in);
       next = shown.size();
     } else {
-      Watcher watcher{by_event, told};
+      std::size_t ticks = 0;
+      const auto on_event = [&](std::int64_t clock, int number) {
+        told_events.emplace_back(clock, number);
+      };
+      const auto on_tick_end = [&] {
+        REQUIRE(ticks < told.size());
+        same_runs(told[ticks++], by_event.glue().watch());
+      };
       const auto on_snapshot = [&] {
         REQUIRE(next < shown.size());
         same<N>(shown[next], by_event.out(), by_event.glue().watch(), by_event.glue().watch(),
@@ -128,12 +124,12 @@ class Both {
       };
       settled = !random_.coin();
       if (settled) {
-        by_event.run(in, clocks, on_snapshot, watcher);
+        by_event.run(in, clocks, on_snapshot, on_event, on_tick_end);
       } else {
-        by_event.advance(in, clocks, on_snapshot, watcher);
+        by_event.advance(in, clocks, on_snapshot, on_event, on_tick_end);
       }
-      if (watcher.events != events) FAIL("what a watcher is told of events");
-      REQUIRE(watcher.next == told.size());
+      if (told_events != events) FAIL("what is told of events");
+      REQUIRE(ticks == told.size());
     }
     REQUIRE(next == shown.size());
     if (settled) {
@@ -178,7 +174,7 @@ class Both {
     for (int k = 0; k < 1300 && !by_clock.out().axis[0].armed; ++k) run(D::clocks_per_tick);
   }
   void memories() {
-    const EngineMemory &a = by_clock.engine().memory(), &b = by_event.engine().memory();
+    const EngineMemory &a = by_clock.glue().engine().memory(), &b = by_event.glue().engine().memory();
     if (a.data != b.data) FAIL("data");
     if (a.table != b.table) FAIL("table");
   }
@@ -197,8 +193,8 @@ class Both {
 /// Memories go in at once; registers by the port, so that their CRC and ranges are looked at.
 template <int N>
 void load(Both<N>& b, const EngineMemory& m, unsigned run, unsigned divider, unsigned max_age) {
-  b.by_clock.engine().memory() = m;
-  b.by_event.engine().memory() = m;
+  b.by_clock.glue().engine().memory() = m;
+  b.by_event.glue().engine().memory() = m;
   for (int t = 0; t < 4; ++t) b.engine(H::divider0 + t, divider);
   b.engine(H::line_base, static_cast<std::uint32_t>(m.line_base));
   b.engine(H::max_age, max_age);

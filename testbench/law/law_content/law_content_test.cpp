@@ -67,7 +67,7 @@ AxesIn<1> turned(std::int64_t clock, std::int64_t from, std::int64_t counts) {
 TEST_CASE("law_content: a law from power-up on is armed by a pin and felt") {
   const law::Compiled law = compiled();
   Twin twin;
-  twin.engine().configure(law::memory(law.image), law::reset_words(law.image));
+  twin.glue().engine().configure(law::memory(law.image), law::reset_words(law.image));
   constexpr std::int64_t ticks = 20'000, counts = 200;
   LockStep<Vstandalone, Twin, Adapter> bench("standalone", 1, twin);
   bool was_armed = false;
@@ -97,7 +97,7 @@ TEST_CASE("law_content: a law from power-up on is armed by a pin and felt") {
 TEST_CASE("law_content: a reset brings the law back") {
   const law::Compiled law = compiled();
   Twin twin;
-  twin.engine().configure(law::memory(law.image), law::reset_words(law.image));
+  twin.glue().engine().configure(law::memory(law.image), law::reset_words(law.image));
   LockStep<Vstandalone, Twin, Adapter> bench("standalone", 2, twin);
   const auto stimulus = [](std::int64_t clock) {
     AxesIn<1> in = turned(clock, 0, 1'000'000);

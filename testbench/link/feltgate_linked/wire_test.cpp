@@ -106,6 +106,13 @@ TEST_CASE("feltgate_linked: whatever comes over the wire, RTL against twin") {
   }
 }
 
+/// What is there at the pins. The word at the register port is compared where the link sends it.
+static CoreOut outputs(const Twin::Out& out, std::size_t n) {
+  CoreOut o = linked::axis(out, n);
+  o.reg_rdata = 0;
+  return o;
+}
+
 TEST_CASE("feltgate_linked: from event to event as clock by clock") {
   const auto fast = std::make_unique<Twin>(), slow = std::make_unique<Twin>();
   UartLine line(D::clock_hz, BAUD);
@@ -167,7 +174,7 @@ TEST_CASE("feltgate_linked: from event to event as clock by clock") {
     REQUIRE(snapshots == 0);
     REQUIRE(fast->out().uart_tx == slow->out().uart_tx);
     for (std::size_t n = 0; n < kAxisCount; ++n) {
-      REQUIRE(linked::axis(fast->out(), n) == linked::axis(slow->out(), n));
+      REQUIRE(outputs(fast->out(), n) == outputs(slow->out(), n));
     }
     for (const std::uint8_t byte : fast->take_received()) from_fast.push_back(byte);
     for (const std::uint8_t byte : line.take_received()) from_slow.push_back(byte);

@@ -9,15 +9,17 @@
 
 namespace feltgate::axis {
 
-/// Law has State, which a tick makes of the state before, and show(at, from, to): what is new when.
+/// Shows each result of a law in the clock in which the RTL shows it. Law::State is the state after
+/// a tick; Law::show(at, from, to) copies what is new in this clock from the tick's state to the
+/// outputs.
 template <class Law>
 class Clocked {
  public:
   using State = typename Law::State;
 
-  State state{};  ///< of the tick, whole from start on
+  State state{};  ///< after the tick; complete from the clock after start
 
-  /// As the outputs have it.
+  /// What the outputs show in this clock.
   const State& shown() const { return at_ == 0 ? state : shown_; }
   State& showing() { return shown_; }
   bool at(int k) const { return (at_ >> k & 1) != 0; }

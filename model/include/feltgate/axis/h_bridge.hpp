@@ -21,7 +21,7 @@ class HBridge {
   /// Bit 0 leg A high, bit 1 leg A low, then B.
   unsigned gates() const { return gates_.bits(); }
   GateCounts gate_clocks() const { return gates_.on_clocks(); }
-  int on_time(std::size_t) const { return 0; }  ///< the duty says it all
+  int on_time(std::size_t) const { return 0; }  ///< only of three legs
   bool modulator_clock() const { return false; }
   void clock(const Pins&, const Drive& drive, const Words<std::int64_t>&, const Rotor&) {
     run(drive, 1);

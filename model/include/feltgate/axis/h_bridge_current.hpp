@@ -34,7 +34,7 @@ class HBridgeCurrent {
     return b;
   }
   unsigned gates() const { return h_bridge_.gates(); }
-  int on_time(std::size_t) const { return 0; }  ///< the duty says it all
+  int on_time(std::size_t) const { return 0; }  ///< only of three legs
   bool modulator_clock() const { return sensors_.modulator_clock(); }
 
   void clock(const Pins& pins, const Drive& drive, const Words<std::int64_t>& p, const Rotor& r) {

@@ -15,7 +15,7 @@ struct ParamsMemory {
   static constexpr int places[5] = {1, 2, 3, 6, 10};  ///< of a scene's words in its bank
   std::array<std::uint64_t, 512> ram{};               ///< word, and above it the check
   Words<std::int64_t> p;
-  int scene = -1;     ///< whose words are in p for certain
+  int scene = -1;     ///< scene whose words p holds; -1: not known
   bool whole = true;  ///< RAM and registers agree, all checks are right
 
   static std::uint64_t checked(std::uint32_t word) {

@@ -23,7 +23,9 @@ class Quadrature {
 
   const Position& out() const { return out_; }
   Rotor rotor() const { return {}; }
-  unsigned lines() const { return 1; }  ///< of an absolute encoder: none is selected
+  unsigned lines() const {
+    return 1;
+  }  ///< chip select of an absolute encoder: high, none is selected
   void clock(const Pins& pins, const Encoder& e, const Words<std::int64_t>&) { clock(pins, e); }
   void reset() {
     decoder_.reset();

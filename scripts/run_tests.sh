@@ -27,7 +27,7 @@ The last line is "N passed, N failed", with ", N skipped" where tests could not 
 a run of all tests says how long each group of them took. Exit code: 0 none failed, 1 some did,
 2 wrong use. Results for machines: test-results.xml (JUnit) in the build folder.
 
-  ./feltgate test                 all of them: 45 minutes on two cores, the build included
+  ./feltgate test                 all of them: about an hour on two cores, build included
   ./feltgate test scene.wall      what the scene 'wall' is tested with
   ./feltgate test '^uart_tx\.'    must fail inside to pass: the seeded defects of one block
 TEXT
